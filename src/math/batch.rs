@@ -67,7 +67,7 @@ impl RayBatch {
 }
 
 /// The nearest hits of a [`RayBatch`]. Entries of inactive rays are left as they were.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct HitBatch {
     /// Distance; infinite for an active ray that hits nothing.

@@ -9,4 +9,5 @@ pub use crate::shade::Counts;
 pub use camera::Camera;
 pub use film::{Film, tone_map};
 pub use kernel::Kernel;
-pub use tile::{PrimaryHits, TILE, primary_hits, render, render_display};
+pub(crate) use kernel::with_lanes;
+pub use tile::{PrimaryHits, TILE, primary_hits, record, render, render_display};

@@ -11,7 +11,7 @@ use super::kernel::with_lanes;
 use super::{Camera, Film, Kernel, tone_map};
 use crate::math::{BATCH, Lanes, NONE, RayBatch, Vec3};
 use crate::scene::Scene;
-use crate::shade::{Counts, Workspace, facing_normal, trace_waves};
+use crate::shade::{Counts, Observer, Workspace, facing_normal, trace_waves};
 use crate::trace::{Candidates, intersect};
 
 /// Pixels along a tile's edge.
@@ -213,7 +213,7 @@ fn over_tiles<P: Send>(
 
 fn centred<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) -> Counts {
     grid.fill::<L>(first, [0.5, 0.5], &mut work.shading.primary.rays);
-    trace_waves::<L>(scene, &mut work.shading)
+    trace_waves::<L>(scene, &mut work.shading, &mut ())
 }
 
 fn sampled<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], samples: u32, work: &mut Work) -> Counts {
@@ -223,13 +223,33 @@ fn sampled<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], samples: u32
         for sx in 0..samples {
             let within = [sx, sy].map(|s| (s as f32 + 0.5) / samples as f32);
             grid.fill::<L>(first, within, &mut work.shading.primary.rays);
-            counts = counts + trace_waves::<L>(scene, &mut work.shading);
+            counts = counts + trace_waves::<L>(scene, &mut work.shading, &mut ());
             for (sum, part) in work.sum.iter_mut().zip(&work.shading.radiance) {
                 for i in 0..BATCH {
                     sum[i] += part[i];
                 }
             }
         }
+    }
+    counts
+}
+
+/// Renders every `stride`-th tile on this thread, in order, and shows its rays to `observer`.
+pub fn record(
+    scene: &Scene,
+    camera: &Camera,
+    kernel: Kernel,
+    [width, height]: [usize; 2],
+    stride: usize,
+    observer: &mut impl Observer,
+) -> Counts {
+    let grid = Grid::new(camera, width, height);
+    let mut work = Box::<Workspace>::default();
+    let mut counts = Counts::default();
+    let across = width.div_ceil(TILE);
+    for tile in (0..across * height.div_ceil(TILE)).step_by(stride.max(1)) {
+        grid.fill::<f32>([tile % across * TILE, tile / across * TILE], [0.5, 0.5], &mut work.primary.rays);
+        counts = counts + with_lanes!(kernel, trace_waves(scene, &mut work, observer));
     }
     counts
 }

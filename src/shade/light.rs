@@ -2,7 +2,7 @@
 
 use super::spawn;
 use super::surface::Surfaces;
-use super::wave::Wave;
+use super::wave::{Observer, Wave};
 use crate::math::{BATCH, Blocked, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene};
 use crate::trace::{Candidates, occluded};
@@ -69,9 +69,11 @@ impl Lighting {
         wave: &Wave,
         surfaces: &Surfaces,
         scratch: &mut Candidates,
+        observer: &mut impl Observer,
     ) -> u64 {
         let count = self.fire::<L>(scene, light, wave, surfaces);
         if count > 0 {
+            observer.shadow(&self.rays);
             occluded::<L>(scene, &self.rays, &mut self.blocked, scratch);
             if surfaces.glossy {
                 for at in 0..wave.rays.len {

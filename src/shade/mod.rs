@@ -12,4 +12,4 @@ mod wave;
 
 pub use path::{Segment, SegmentKind, path};
 pub(crate) use surface::facing_normal;
-pub use wave::{Counts, Workspace, trace_waves};
+pub use wave::{Counts, Observer, Workspace, trace_waves};

@@ -55,6 +55,18 @@ impl Default for Wave {
     }
 }
 
+/// Watches the rays of a tile go by; `()` does not, at no cost.
+pub trait Observer {
+    /// The eye rays.
+    fn primary(&mut self, _rays: &RayBatch) {}
+    /// One light's shadow rays, from the light.
+    fn shadow(&mut self, _rays: &RayBatch) {}
+    /// A wave of mirrored rays.
+    fn reflection(&mut self, _rays: &RayBatch) {}
+}
+
+impl Observer for () {}
+
 /// All that a thread needs to trace and shade a tile, kept between tiles.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
@@ -86,13 +98,14 @@ impl Default for Workspace {
 }
 
 /// Traces and shades the eye rays of `work.primary` and all that follows from them into `work.radiance`.
-pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace) -> Counts {
+pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, hits, waves, surfaces, lighting, candidates } = work;
     for axis in radiance.iter_mut() {
         axis[..primary.rays.len].fill(0.0);
     }
     let [even, odd] = waves;
+    observer.primary(&primary.rays);
     for depth in 1..=scene.plan.waves {
         let (wave, next): (&Wave, &mut Wave) = match depth {
             1 => (primary, &mut *odd),
@@ -107,7 +120,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace) -> Counts {
         }
         lighting.start(scene, len, surfaces.glossy);
         for light in &scene.lights {
-            counts.shadow += lighting.add::<L>(scene, light, wave, surfaces, candidates);
+            counts.shadow += lighting.add::<L>(scene, light, wave, surfaces, candidates, observer);
         }
         settle::<L>(wave, surfaces, lighting, radiance, depth == 1);
         if depth == scene.plan.waves {
@@ -118,6 +131,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace) -> Counts {
         if next.rays.len == 0 {
             break;
         }
+        observer.reflection(&next.rays);
     }
     counts
 }
