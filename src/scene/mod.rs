@@ -1,6 +1,12 @@
 //! From what the user wrote ([`Description`]) to what is traced ([`Scene`]).
+mod builtin;
+mod check;
 mod description;
+mod read;
+pub use builtin::*;
+pub use check::check;
 pub use description::*;
+pub use read::*;
 
 /// A compiled scene: SoA arrays, ready to trace.
 #[derive(Debug)]
@@ -22,13 +28,5 @@ pub struct Invalid {
 /// [`Invalid`] when [`check`] finds fault with it.
 pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     check(description)?;
-    todo!()
-}
-
-/// Says what is wrong with a description, if anything is.
-///
-/// # Errors
-/// The first fault.
-pub fn check(_description: &Description) -> Result<(), Invalid> {
     todo!()
 }
