@@ -49,7 +49,9 @@ pub fn load(name_or_path: &str) -> Result<Description, ReadError> {
         None if path.is_file() => read(path),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {
             Some(builtin) => parse(builtin.source, Path::new(&format!("scenes/{}.toml", builtin.name))),
-            None => Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") }),
+            None => {
+                Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") })
+            }
         },
     }
 }

@@ -72,9 +72,10 @@ fn surface(material: &Material) -> Result<(), Invalid> {
     rule(require((0.0..=1.0).contains(&reflectance), || format!("must be 0 to 1, got {reflectance}")), || {
         key("reflectance")
     })?;
-    rule(require(specular >= 0.0 && specular.is_finite(), || format!("must be finite and 0 or more, got {specular}")), || {
-        key("specular")
-    })?;
+    rule(
+        require(specular >= 0.0 && specular.is_finite(), || format!("must be finite and 0 or more, got {specular}")),
+        || key("specular"),
+    )?;
     rule(positive(shininess), || key("shininess"))
 }
 

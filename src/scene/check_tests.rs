@@ -36,10 +36,7 @@ fn a_sound_description_passes() {
 
 #[test]
 fn the_camera_is_checked() {
-    assert_eq!(
-        verdict(|d| d.camera.eye.x = f32::NAN),
-        "camera.eye: must be finite and within ±1e18, got [NaN, 1, 5]"
-    );
+    assert_eq!(verdict(|d| d.camera.eye.x = f32::NAN), "camera.eye: must be finite and within ±1e18, got [NaN, 1, 5]");
     assert_eq!(verdict(|d| d.camera.look_at = d.camera.eye), "camera.look_at: must differ from camera.eye");
     assert_eq!(verdict(|d| d.camera.up = Vec3::ZERO), "camera.up: must not be zero");
     for fov in [0.0, 180.0, -3.0, f32::NAN, f32::INFINITY] {

@@ -96,12 +96,16 @@ pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
 /// The whole of a file that is no longer than `limit`.
 fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let io = |source| ReadError::Io { path: path.into(), source };
+    let file = File::open(path).map_err(io)?;
     let mut bytes = Vec::new();
-    File::open(path).map_err(io)?.take(limit + 1).read_to_end(&mut bytes).map_err(io)?;
-    if bytes.len() as u64 > limit {
-        return Err(ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") });
+    // The length is asked first to spare the reading, and again afterwards since a device has none.
+    if file.metadata().map_err(io)?.len() <= limit {
+        file.take(limit + 1).read_to_end(&mut bytes).map_err(io)?;
+        if bytes.len() as u64 <= limit {
+            return Ok(bytes);
+        }
     }
-    Ok(bytes)
+    Err(ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") })
 }
 
 /// The text with control characters escaped, and cut when it is very long.

@@ -25,20 +25,14 @@ pub(super) fn quote(text: &[u8], offset: usize) -> (usize, String) {
 
 /// The line of a key, or of the nearest table around it that the text spells out.
 pub(super) fn line_of(text: &str, key: &str) -> usize {
-    let mut key = key;
-    while !key.is_empty() {
-        let mut found = None;
-        walk(text, |at, key_span, _| {
-            if at == key && found.is_none() {
-                found = Some(key_span.start);
-            }
-        });
-        if let Some(start) = found {
-            return line_at(text.as_bytes(), start);
+    let mut best = (0, 0);
+    walk(text, |at, key_span, _| {
+        let around = key.strip_prefix(at).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']));
+        if around && at.len() > best.0 {
+            best = (at.len(), key_span.start);
         }
-        key = key.rfind(['.', '[']).map_or("", |end| &key[..end]);
-    }
-    1
+    });
+    line_at(text.as_bytes(), best.1)
 }
 
 /// The key whose name or value stands at a span: the innermost one.

@@ -52,7 +52,12 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
                         elements.push(element);
                     }
                 }
-                elements.try_into().ok().filter(|_| count == N).map(Exactly).ok_or_else(|| A::Error::invalid_length(count, &self))
+                elements
+                    .try_into()
+                    .ok()
+                    .filter(|_| count == N)
+                    .map(Exactly)
+                    .ok_or_else(|| A::Error::invalid_length(count, &self))
             }
         }
         deserializer.deserialize_seq(Shape(PhantomData))

@@ -169,8 +169,10 @@ fn shape(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
         return ReadError::at(file, line, key, format_args!("unknown key, {expected}"));
     }
     // Rust's type names mean nothing to who writes a scene.
-    let words = [("expected f32", "expected a number"), ("expected u32", "expected a whole number")];
-    let problem = words.iter().find_map(|(rust, plain)| Some(format!("{}{plain}", message.strip_suffix(rust)?)));
+    let words = [("f32", "a number"), ("u32", "a whole number"), ("a sequence", "an array"), ("a map", "a table")];
+    let words = words.map(|(rust, plain)| (format!("expected {rust}"), format!("expected {plain}")));
+    let problem =
+        words.iter().find_map(|(rust, plain)| Some(format!("{}{plain}", message.strip_suffix(rust.as_str())?)));
     ReadError::at(file, line, key, problem.as_deref().unwrap_or(message))
 }
 
@@ -258,7 +260,8 @@ impl Names {
 /// How many letters differ between two names: replaced, added or left out.
 fn edits(a: &str, b: &str) -> usize {
     const LONG: usize = 64;
-    if a.len() > LONG || b.len() > LONG {
+    // The caller only minds two letters, each up to four bytes.
+    if a.len() > LONG || a.len().abs_diff(b.len()) > 8 {
         return usize::MAX;
     }
     let b: Vec<char> = b.chars().collect();
