@@ -17,7 +17,8 @@ use super::Description;
 /// The largest scene file that is read. Parsing takes up to about a hundred times the file's size in memory.
 pub const MAX_TOML_BYTES: u64 = 16 << 20;
 
-/// The most that is read from all mesh files of a scene together.
+/// The most that is read from all mesh files of a scene together. Reading takes up to about twenty times as much
+/// memory.
 pub const MAX_OBJ_BYTES: u64 = 256 << 20;
 
 /// Longer keys and problems are cut: a message quotes what the file says, which may be anything.
