@@ -1,10 +1,17 @@
 //! From what the user wrote ([`Description`]) to what is traced ([`Scene`]).
+mod builtin;
+mod check;
 mod compile;
 mod description;
 mod plan;
+mod read;
+
+pub use builtin::*;
+pub use check::check;
 pub use compile::{Scene, compile};
 pub use description::*;
 pub use plan::Plan;
+pub use read::*;
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -14,12 +21,4 @@ pub struct Invalid {
     pub key: String,
     /// What is wrong, with the value.
     pub problem: String,
-}
-
-/// Says what is wrong with a description, if anything is.
-///
-/// # Errors
-/// The first fault.
-pub fn check(_description: &Description) -> Result<(), Invalid> {
-    Ok(())
 }
