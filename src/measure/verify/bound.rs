@@ -38,7 +38,7 @@ impl Neighbourhood {
     /// A third turn the direction, a third move the origin, a third do both; every other triple is lifted.
     pub fn question(&self, i: u32) -> Question {
         let turn = if i % 3 == 1 { DVec3::ZERO } else { self.turn(i) };
-        let shift = if i % 3 == 0 { DVec3::ZERO } else { self.shift(i) };
+        let shift = if i.is_multiple_of(3) { DVec3::ZERO } else { self.shift(i) };
         Question {
             origin: self.origin + K * U * self.scale * shift,
             direction: (self.direction + K * U * turn).normalize(),

@@ -29,7 +29,7 @@ fn scene() -> Description {
     let positions = vec![vec3(0.0, 2.0, -2.0), vec3(0.0, 4.0, -2.0), vec3(1.5, 3.0, -2.0)];
     Description {
         name: "test".into(),
-        camera: CameraDescription { eye: vec3(0.0, 1.5, 5.0), look_at: vec3(0.0, 1.5, 0.0), ..Default::default() },
+        camera: CameraDescription { eye: vec3(0.0, 1.53, 5.0), look_at: vec3(0.0, 1.53, 0.0), ..Default::default() },
         lights: vec![Light { position: vec3(3.0, 6.0, 3.0), power: Vec3::splat(400.0) }],
         materials: vec![
             material(checker, 0.0),
