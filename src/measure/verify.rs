@@ -18,7 +18,8 @@
 //! - k·u in the ray's unit direction,
 //! - k·u·s in its origin, where s is the largest of |E|, |p| and the size of the primitives that were hit (a sphere's
 //!   radius, a triangle's longest edge); E is the eye and p the point the reference hit,
-//! - a lift of secondary rays off their surfaces by k·u of |p| or that size, the ends at lights included.
+//! - k·u·s' in where a secondary ray hits, and up to k·u·s' in how far one starts off its surface and ends before a
+//!   light, where s' is s for that surface and without the eye.
 //!
 //! The reference answers [`ROUNDS`] such questions, spread evenly over those differences, and
 //! - a differing hit is explained when one of them hits that primitive, at a t that lies within the range of their ts
@@ -27,7 +28,7 @@
 //!   and they disagree among themselves by more than 1/255 in each channel that differs: the pixel sits within the
 //!   bound of an edge of an object, of a shadow, of a checker cell or of a mirror image.
 //!
-//! So a wrong answer in the interior of anything is never explained, however small the difference.
+//! So a wrong answer in the interior of anything is never explained.
 use crate::render::{self, Film, Kernel};
 use crate::scene::{self, Description};
 use glam::DVec3;

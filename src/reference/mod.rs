@@ -22,16 +22,11 @@ mod triangle;
 
 pub use camera::Camera;
 pub use image::{hits, render};
+pub use shade::Rounding;
 
 use plane::Plane;
 use sphere::Sphere;
 use triangle::Triangle;
-
-/// How far the reference lifts a secondary ray off its surface, relative to the size of the numbers involved.
-///
-/// A hit point is put back onto its surface before use, which leaves an error of a few 2^-53 of those
-/// numbers; 2^-40 is some thousand times that error, and 1e-12 of the scene, far below any `f32` step.
-pub const LIFT: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A nearest hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +49,6 @@ pub struct Tracer {
     lights: Vec<Light>,
     sky: DVec3,
     settings: Settings,
-    lift: f64,
 }
 
 /// One primitive, found by its id.
@@ -83,15 +77,7 @@ impl Tracer {
             lights: scene.lights.clone(),
             sky: scene.sky.color.as_dvec3(),
             settings: scene.settings,
-            lift: LIFT,
         }
-    }
-
-    /// The same scene with another lift than [`LIFT`]: how it looks when secondary rays start as far off their
-    /// surfaces as a less precise tracer has to put them.
-    pub fn with_lift(mut self, lift: f64) -> Self {
-        self.lift = lift;
-        self
     }
 
     /// The nearest hit in (0, `t_max`); on equal distance the lower id wins.

@@ -1,4 +1,5 @@
 //! The slightly different questions that an `f32` answer may be the exact answer to.
+use crate::reference::Rounding;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -25,24 +26,26 @@ pub(super) struct Neighbourhood {
     pub scale: f64,
 }
 
-/// One question: a ray, and whether secondary rays are lifted by the bound as well.
+/// One question: a ray, and how roughly its secondary rays are followed.
 pub(super) struct Question {
     pub origin: DVec3,
     pub direction: DVec3,
-    pub lifted: bool,
+    pub rounding: Rounding,
 }
 
 impl Neighbourhood {
     /// The `i`th question; always the same for the same neighbourhood.
     ///
-    /// A third turn the direction, a third move the origin, a third do both; every other triple is lifted.
+    /// A third turn the direction, a third move the origin, a third do both. Secondary rays are shifted like the origin;
+    /// in every other triple they are lifted more than finely, more often little than much.
     pub fn question(&self, i: u32) -> Question {
         let turn = if i % 3 == 1 { DVec3::ZERO } else { self.turn(i) };
-        let shift = if i.is_multiple_of(3) { DVec3::ZERO } else { self.shift(i) };
+        let shift = if i.is_multiple_of(3) { DVec3::ZERO } else { K * U * self.shift(i) };
+        let lift = if i / 3 % 2 == 0 { 0.0 } else { K * U * spread(i, 11.0).powi(2) };
         Question {
-            origin: self.origin + K * U * self.scale * shift,
+            origin: self.origin + self.scale * shift,
             direction: (self.direction + K * U * turn).normalize(),
-            lifted: i / 3 % 2 == 1,
+            rounding: Rounding { lift: lift.max(Rounding::FINE.lift), shift },
         }
     }
 

@@ -18,8 +18,6 @@ pub struct Truth {
     pub size: [usize; 2],
     camera: Camera,
     tracer: Tracer,
-    /// The same, but secondary rays start as far off as the bound allows.
-    lifted: Tracer,
     hits: Vec<Option<Hit>>,
     /// As displayed.
     pixels: Vec<DVec3>,
@@ -28,13 +26,11 @@ pub struct Truth {
 impl Truth {
     /// Traces the scene with the reference, in the caller's rayon pool.
     pub fn new(scene: &Description, width: usize, height: usize) -> Self {
-        let tracer = Tracer::new(scene);
         Self {
             name: scene.name.clone(),
             size: [width, height],
             camera: Camera::new(&scene.camera, width as f64 / height as f64),
-            lifted: tracer.clone().with_lift(K * U),
-            tracer,
+            tracer: Tracer::new(scene),
             hits: reference::hits(scene, width, height),
             pixels: reference::render(scene, width, height, 1).into_iter().map(displayed).collect(),
         }
@@ -84,8 +80,7 @@ impl Truth {
         let mut asked = 0;
         for until in ROUNDS {
             for q in (asked..until).map(|q| around.question(q)) {
-                let tracer = if q.lifted { &self.lifted } else { &self.tracer };
-                let color = displayed(tracer.radiance(q.origin, q.direction));
+                let color = displayed(self.tracer.radiance_rounded(q.origin, q.direction, &q.rounding));
                 (low, high) = (low.min(color), high.max(color));
             }
             asked = until;
