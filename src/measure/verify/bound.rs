@@ -41,7 +41,7 @@ impl Neighbourhood {
     pub fn question(&self, i: u32) -> Question {
         let turn = if i % 3 == 1 { DVec3::ZERO } else { self.turn(i) };
         let shift = if i.is_multiple_of(3) { DVec3::ZERO } else { K * U * self.shift(i) };
-        let lift = if i / 3 % 2 == 0 { 0.0 } else { K * U * spread(i, 11.0).powi(2) };
+        let lift = if (i / 3).is_multiple_of(2) { 0.0 } else { K * U * spread(i, 11.0).powi(2) };
         Question {
             origin: self.origin + self.scale * shift,
             direction: (self.direction + K * U * turn).normalize(),

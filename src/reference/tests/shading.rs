@@ -181,3 +181,33 @@ fn checker_in_a_sphere_is_solid() {
     assert_eq!(from(-1.0, -1.0, 1.0), DVec3::Y);
     assert_eq!(from(-1.0, -1.0, -1.0), DVec3::X);
 }
+
+#[test]
+fn a_lift_rises_above_small_blockers() {
+    let mut scene = planes(&[floor(0.0)]);
+    scene.spheres = vec![sphere(vec3(1.0, 0.002, 0.0), 0.001)];
+    scene.lights = vec![lamp(vec3(1.0, 4.0, 0.0))];
+    let seen = |lift: f64| {
+        let rounding = Rounding { lift, ..Rounding::FINE };
+        let (origin, direction) = (dvec3(0.0, 1.0, 0.0), dvec3(1.0, -1.0, 0.0).normalize());
+        Tracer::new(&scene).radiance_rounded(origin, direction, &rounding).x
+    };
+    assert_eq!((seen(Rounding::FINE.lift), seen(1e-4)), (0.0, 0.0));
+    assert!(seen(0.01) > 0.0);
+}
+
+#[test]
+fn a_shift_moves_what_a_mirror_shows_but_not_what_the_eye_sees() {
+    let mut scene = checkered(planes(&[floor(0.0)]), 1.0);
+    let seen = |scene: &Description, y: f64, shift: DVec3| {
+        let rounding = Rounding { shift, ..Rounding::FINE };
+        Tracer::new(scene).radiance_rounded(dvec3(0.01, y, 0.5), -DVec3::Y, &rounding)
+    };
+    let shift = -0.1 * DVec3::X;
+    assert_eq!(seen(&scene, 1.0, shift), DVec3::X);
+    // The same board, now seen from below in a mirror further down.
+    scene.planes.push(Plane { material: 1, ..floor(-1.0) });
+    scene.materials.push(Material { reflectance: 1.0, ..material() });
+    assert_eq!(seen(&scene, -0.5, DVec3::ZERO), DVec3::X);
+    assert_eq!(seen(&scene, -0.5, shift), DVec3::Y);
+}
