@@ -62,10 +62,11 @@ impl Planes {
     /// The surface of plane `i` at `point`, which lies near it.
     #[inline(always)]
     pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        let raw = self.normal(i);
+        // In f64, where the square of a tiny normal does not vanish.
+        let raw = self.normal(i).as_dvec3();
         let length = raw.length();
-        let normal = Vec3::splat(raw / length);
-        let height = normal.dot(point) + L::splat(self.distance[i] / length);
+        let normal = Vec3::splat((raw / length).as_vec3());
+        let height = normal.dot(point) + L::splat((f64::from(self.distance[i]) / length) as f32);
         Surface { point: normal.mul_add(-height, point), normal, reach: 0.0 }
     }
 }

@@ -168,7 +168,7 @@ fn odd_cell<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, per_size: f3
 /// The unit normal of a plane or triangle.
 fn flat_normal(scene: &Scene, id: u32) -> glam::Vec3 {
     if id < scene.first_sphere() {
-        scene.planes.normal(id as usize).normalize()
+        scene.planes.normal(id as usize).as_dvec3().normalize().as_vec3()
     } else {
         let [_, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
         e1.cross(e2).normalize()
