@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, Vec3};
 /// Things further from the eye than this many times its distance to look_at do not count for the scale.
 const NEARBY: f64 = 4.0;
 /// Space around what is shown, as a part of it.
-const MARGIN: f64 = 0.1;
+const MARGIN: f64 = 0.2;
 
 /// The part of the world that is shown: chosen once for a scene, moved along when the eye leaves it, never rescaled.
 #[derive(Clone, Copy, Debug, PartialEq)]

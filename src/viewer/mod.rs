@@ -111,10 +111,7 @@ pub enum ViewerError {
 /// # Errors
 /// [`ViewerError`], before anything is traced when there is no display.
 pub fn run(description: &Description, scene: &Scene, options: &Options) -> Result<(), ViewerError> {
-    let (width, height) = options.size;
-    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
-        return Err(ViewerError::Size(width, height));
-    }
+    options.check()?;
     join(|link| window::show(description, options, &link), |request, frame| frame.paint(scene, description, request))
 }
 

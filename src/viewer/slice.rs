@@ -19,8 +19,8 @@ const EYE: u32 = 0xFF_60_60;
 const PRIMARY: u32 = 0xB0_A0_58;
 const HIT: u32 = 0xFF_FF_FF;
 const REFLECTION: u32 = 0x38_A8_D8;
-const SHADOW: u32 = 0x58_A0_48;
-const BLOCKED: u32 = 0x58_30_38;
+const SHADOW: u32 = 0x34_68_2C;
+const BLOCKED: u32 = 0x68_2C_34;
 const LIGHT: u32 = 0xFF_E8_80;
 const LEGEND: [(u32, &str); 4] =
     [(PRIMARY, "primary"), (REFLECTION, "reflection"), (SHADOW, "shadow"), (BLOCKED, "blocked")];
@@ -108,6 +108,7 @@ pub fn draw(picture: &mut Picture, layout: &Layout, description: &Description, c
     }
     draw_eye(picture, layout, camera);
     draw_scale(picture, layout);
+    draw_legend(picture);
 }
 
 /// The least important first, since later lines cover earlier ones.
@@ -163,11 +164,16 @@ fn draw_scale(picture: &mut Picture, layout: &Layout) {
             picture.segment(from, to, OUTLINE);
         }
         text::write(picture, left as usize, bottom as usize - 21, &length_text(length), OUTLINE);
-        let mut x = 8;
-        for (color, name) in LEGEND {
-            text::write(picture, x, 4, name, color);
-            x += (name.len() + 1) * text::char_width();
-        }
+    }
+}
+
+fn draw_legend(picture: &mut Picture) {
+    let names: Vec<&str> = LEGEND.iter().map(|(_, name)| *name).collect();
+    text::panel(picture, 0, 0, &[" ".repeat(names.join(" ").len())], 0);
+    let mut x = text::PADDING;
+    for (color, name) in LEGEND {
+        text::write(picture, x, text::PADDING, name, color);
+        x += (name.len() + 1) * text::char_width();
     }
 }
 

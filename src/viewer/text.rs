@@ -8,7 +8,7 @@ const HEIGHT: RasterHeight = RasterHeight::Size16;
 /// Pixels from one line to the next.
 pub const LINE_HEIGHT: usize = 17;
 /// Pixels between a panel's edge and its text.
-const PADDING: usize = 6;
+pub const PADDING: usize = 6;
 
 /// Pixels from one character to the next.
 pub fn char_width() -> usize {

@@ -179,6 +179,7 @@ fn save(view: &Picture) -> String {
     }
     match screenshot::save_numbered(view, Path::new("")) {
         Ok(path) => format!("saved {}", path.display()),
-        Err(error) => format!("not saved: {error}"),
+        // The kind's text alone: the error's own names the temporary file, which says nothing to the user.
+        Err(error) => format!("not saved: {}", error.kind()),
     }
 }
