@@ -64,7 +64,7 @@ pub struct Overlay<'a> {
     pub scene: &'a str,
     /// The width that the shown frame was traced at.
     pub kernel: Kernel,
-    /// Threads that trace.
+    /// Threads that trace; 0 when not yet known.
     pub threads: usize,
     /// The shown frame's rays; None before the first frame.
     pub counts: Option<Counts>,
@@ -79,8 +79,12 @@ pub struct Overlay<'a> {
 impl Overlay<'_> {
     /// The lines at the top left.
     pub fn lines(&self) -> Vec<String> {
-        let threads = if self.threads == 1 { "thread" } else { "threads" };
-        let mut lines = vec![format!("{}  {}  {} {threads}", self.scene, self.kernel.name(), self.threads)];
+        let threads = match self.threads {
+            0 => String::new(),
+            1 => "  1 thread".to_owned(),
+            n => format!("  {n} threads"),
+        };
+        let mut lines = vec![format!("{}  {}{threads}", self.scene, self.kernel.name())];
         let kinds = ["primary", "shadow", "reflection"];
         match (self.counts, self.rates) {
             (None, _) => lines.push("tracing the first frame".to_owned()),
@@ -147,7 +151,9 @@ mod tests {
     #[test]
     fn the_lines_say_it_all() {
         let mut overlay = Overlay { scene: "classic", threads: 2, ..Overlay::default() };
-        assert_eq!(overlay.lines()[0], "classic  x8  2 threads");
+        assert_eq!(overlay.lines(), ["classic  x8  2 threads", "tracing the first frame"]);
+        assert_eq!(Overlay { threads: 1, ..overlay.clone() }.lines()[0], "classic  x8  1 thread");
+        assert_eq!(Overlay { threads: 0, ..overlay.clone() }.lines()[0], "classic  x8");
         overlay.counts = Some(COUNTS);
         assert_eq!(overlay.lines()[1], "primary      2000000 rays");
         overlay.rates = Some(Rates { frames: 123.4, mrays: [45.67, 8.901, 0.0] });
