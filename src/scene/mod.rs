@@ -10,7 +10,7 @@ pub use builtin::*;
 pub use check::check;
 pub use compile::{Scene, compile};
 pub use description::*;
-pub use plan::Plan;
+pub use plan::{Plan, ShadowStart};
 pub use read::*;
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.

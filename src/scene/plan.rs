@@ -2,7 +2,22 @@
 
 use std::fmt;
 
+use glam::Vec3;
+
 use super::{Description, Pigment};
+
+/// Where a light's shadow rays start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadowStart {
+    /// At the light: all rays share their origin, which is faster.
+    Light,
+    /// At the shaded point: for a light so far from something small that rays from there would miss it.
+    Point,
+}
+
+/// The greatest distance of a light from a primitive, in sizes of the primitive, for shadow rays to start at the
+/// light: a ray that comes from D away is off by 12 ε D ([`crate::shade`]), here less than 1/1000 of the size.
+const FARTHEST: f32 = 1024.0;
 
 /// What the tracer will do for a scene, each with its reason; what is absent costs nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +30,8 @@ pub struct Plan {
     pub highlights: bool,
     /// Whether any material has a checkerboard.
     pub checkers: bool,
-    lights: usize,
+    /// Where each light's shadow rays start.
+    pub shadows: Vec<ShadowStart>,
     mirrors: usize,
     materials: usize,
 }
@@ -34,11 +50,25 @@ impl Plan {
             waves: if mirrors == 0 { 1 } else { description.settings.max_depth },
             highlights: count(&|m| m.specular > 0.0) > 0,
             checkers: count(&|m| matches!(m.pigment, Pigment::Checker { .. })) > 0,
-            lights: description.lights.len(),
+            shadows: description.lights.iter().map(|l| shadow_start(description, l.position)).collect(),
             mirrors,
             materials: used.iter().filter(|u| **u).count(),
         }
     }
+}
+
+/// Where the shadow rays of a light at `position` start.
+fn shadow_start(description: &Description, position: Vec3) -> ShadowStart {
+    let near = |center: Vec3, size: f32| (center - position).length() <= FARTHEST * size;
+    let spheres = description.spheres.iter().all(|s| near(s.center, s.radius));
+    let meshes = description.meshes.iter().all(|mesh| {
+        mesh.triangles.iter().all(|corners| {
+            let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
+            let size = (b - a).length().max((c - a).length());
+            size == 0.0 || near(a, size)
+        })
+    });
+    if spheres && meshes { ShadowStart::Light } else { ShadowStart::Point }
 }
 
 /// Which materials some primitive wears.
@@ -75,12 +105,20 @@ impl fmt::Display for Plan {
             (_, 0) => writeln!(f, "waves       1: nothing reflects")?,
             (waves, n) => writeln!(f, "waves       {waves}: {n} of {} materials reflect; max_depth", self.materials)?,
         }
-        match self.lights {
-            0 => writeln!(f, "shadows     none: there is no light")?,
-            n => writeln!(
+        let from_light = self.shadows.iter().filter(|s| **s == ShadowStart::Light).count();
+        let from_point = self.shadows.len() - from_light;
+        if from_light > 0 {
+            writeln!(f, "shadows     {from_light} streams a wave from lights, so that their rays share an origin")?;
+        }
+        if from_point > 0 {
+            writeln!(
                 f,
-                "shadows     {n} streams a wave: one a light, fired from it so that its rays share their origin"
-            )?,
+                "shadows     {from_point} streams a wave towards lights over {FARTHEST} sizes from a primitive, \
+                 too far to aim at it from there"
+            )?;
+        }
+        if self.shadows.is_empty() {
+            writeln!(f, "shadows     none: there is no light")?;
         }
         writeln!(
             f,

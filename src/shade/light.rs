@@ -4,7 +4,7 @@ use super::spawn;
 use super::surface::Surfaces;
 use super::wave::{Observer, Wave};
 use crate::math::{BATCH, Blocked, LaneMask, Lanes, RayBatch, Vec3, powf};
-use crate::scene::{Light, Scene};
+use crate::scene::{Light, Scene, ShadowStart};
 use crate::trace::{Candidates, occluded};
 
 /// 1 / (4 π).
@@ -60,12 +60,12 @@ impl Lighting {
         }
     }
 
-    /// Adds one light; returns the number of shadow rays.
+    /// Adds light `light`; returns the number of shadow rays.
     #[inline(always)]
     pub fn add<L: Lanes>(
         &mut self,
         scene: &Scene,
-        light: &Light,
+        light: usize,
         wave: &Wave,
         surfaces: &Surfaces,
         scratch: &mut Candidates,
@@ -80,15 +80,16 @@ impl Lighting {
                     self.gloss.0[at] = powf(self.gloss.0[at], surfaces.shininess[at]);
                 }
             }
-            self.collect::<L>(light, wave.rays.len, surfaces.glossy);
+            self.collect::<L>(&scene.lights[light], wave.rays.len, surfaces.glossy);
         }
         count
     }
 
     /// Makes the shadow rays: one for every hit that faces the light.
     #[inline(always)]
-    fn fire<L: Lanes>(&mut self, scene: &Scene, light: &Light, wave: &Wave, surfaces: &Surfaces) -> u64 {
-        let position = Vec3::splat(light.position);
+    fn fire<L: Lanes>(&mut self, scene: &Scene, light: usize, wave: &Wave, surfaces: &Surfaces) -> u64 {
+        let position = Vec3::splat(scene.lights[light].position);
+        let start = scene.plan.shadows[light];
         let mut count = 0;
         self.rays.len = wave.rays.len;
         for at in (0..wave.rays.len).step_by(L::WIDTH) {
@@ -99,10 +100,14 @@ impl Lighting {
                 continue;
             }
             let normal = Vec3::load(&surfaces.normal, at);
-            let ray = spawn::shadow(position, Vec3::load(&surfaces.point, at), normal, lift);
+            let point = Vec3::load(&surfaces.point, at);
+            let ray = match start {
+                ShadowStart::Light => spawn::shadow_from_light(position, point, normal, lift),
+                ShadowStart::Point => spawn::shadow_from_point(position, point, normal, lift),
+            };
             let lit = hit & ray.cosine.gt(L::zero());
             count += u64::from(lit.bits().count_ones());
-            position.store(&mut self.rays.origin, at);
+            ray.origin.store(&mut self.rays.origin, at);
             ray.direction.store(&mut self.rays.direction, at);
             ray.t_max.select(lit, L::splat(-1.0)).store(&mut self.rays.t_max[at..]);
             let e = if scene.settings.attenuation {
@@ -113,8 +118,10 @@ impl Lighting {
             (e * ray.cosine).store(&mut self.diffuse.0[at..]);
             if surfaces.glossy {
                 let mirrored = spawn::mirror(Vec3::load(&wave.rays.direction, at), normal);
+                let cosine = mirrored.dot(ray.direction);
+                let towards = if start == ShadowStart::Light { -cosine } else { cosine };
                 e.store(&mut self.arriving.0[at..]);
-                (-mirrored.dot(ray.direction)).store(&mut self.gloss.0[at..]);
+                towards.store(&mut self.gloss.0[at..]);
             }
         }
         count

@@ -3,7 +3,7 @@
 use super::spawn;
 use super::surface::surface;
 use crate::math::Vec3 as Lane3;
-use crate::scene::Scene;
+use crate::scene::{Scene, ShadowStart};
 use crate::trace::{intersect_one, occluded_one};
 use glam::Vec3;
 
@@ -50,13 +50,17 @@ pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
         segments.push(Segment { kind, from, to: Some(point), direction });
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
         let lift = spawn::lift::<f32>(s.point, s.reach);
-        for light in &scene.lights {
-            let ray = spawn::shadow::<f32>(light.position.into(), s.point, normal.into(), lift);
+        for (light, start) in scene.lights.iter().zip(&scene.plan.shadows) {
+            let spawn = match start {
+                ShadowStart::Light => spawn::shadow_from_light::<f32>,
+                ShadowStart::Point => spawn::shadow_from_point::<f32>,
+            };
+            let ray = spawn(light.position.into(), s.point, normal.into(), lift);
             if ray.cosine > 0.0 {
-                let away = Vec3::from(ray.direction);
-                let blocked = occluded_one(scene, light.position, away, ray.t_max);
+                let blocked = occluded_one(scene, ray.origin.into(), ray.direction.into(), ray.t_max);
+                let direction = (light.position - point).normalize();
                 let kind = SegmentKind::Shadow { blocked };
-                segments.push(Segment { kind, from: point, to: Some(light.position), direction: -away });
+                segments.push(Segment { kind, from: point, to: Some(light.position), direction });
             }
         }
         if depth == scene.plan.waves || scene.materials[material as usize].reflectance <= 0.0 {

@@ -19,12 +19,14 @@ use crate::math::{Lanes, Vec3};
 /// ε, the unit roundoff: half the distance from 1 to the next number.
 const ROUNDOFF: f32 = 0.5 * f32::EPSILON;
 
-/// A shadow ray, fired from the light at a point, and what the light does there.
+/// A shadow ray between a light and a point, and what the light does there.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowRay<L> {
-    /// Unit direction, from the light.
+    /// Where it starts: at the light or at the lifted point.
+    pub origin: Vec3<L>,
+    /// Unit direction.
     pub direction: Vec3<L>,
-    /// Distance to the lifted point: the end of the ray.
+    /// Distance between light and lifted point: the end of the ray.
     pub t_max: L,
     /// n·l; the light is on the surface's other side when not above zero, or NaN.
     pub cosine: L,
@@ -34,16 +36,29 @@ pub struct ShadowRay<L> {
 
 /// The ray from `light` to `point`, on the side of the surface that `normal` points to; `lift` is [`lift`]'s.
 #[inline(always)]
-pub fn shadow<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> ShadowRay<L> {
+pub fn shadow_from_light<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> ShadowRay<L> {
     let away = point - light;
     // The sum of the magnitudes stands for the distance; it is never less.
     let length = away.x.abs() + away.y.abs() + away.z.abs();
     let lifted = normal.mul_add(length.mul_add(L::splat(12.0 * ROUNDOFF), lift), point);
-    let v = lifted - light;
-    let t_max = v.dot(v).sqrt();
-    let inverse = L::splat(1.0) / t_max;
-    let direction = v * inverse;
-    ShadowRay { direction, t_max, cosine: -normal.dot(direction), inverse }
+    let (direction, t_max, inverse) = unit(lifted - light);
+    ShadowRay { origin: light, direction, t_max, cosine: -normal.dot(direction), inverse }
+}
+
+/// The same ray from `point` to `light`: for a light so far away that a ray from there would miss small things.
+#[inline(always)]
+pub fn shadow_from_point<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> ShadowRay<L> {
+    let origin = normal.mul_add(lift, point);
+    let (direction, t_max, inverse) = unit(light - origin);
+    ShadowRay { origin, direction, t_max, cosine: normal.dot(direction), inverse }
+}
+
+/// A vector's direction, length and the length's inverse.
+#[inline(always)]
+fn unit<L: Lanes>(v: Vec3<L>) -> (Vec3<L>, L, L) {
+    let length = v.dot(v).sqrt();
+    let inverse = L::splat(1.0) / length;
+    (v * inverse, length, inverse)
 }
 
 /// Origin and unit direction of the mirror's ray for one that came along `direction`; `lift` is [`lift`]'s.

@@ -119,7 +119,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
             break;
         }
         lighting.start(scene, len, surfaces.glossy);
-        for light in &scene.lights {
+        for light in 0..scene.lights.len() {
             counts.shadow += lighting.add::<L>(scene, light, wave, surfaces, candidates, observer);
         }
         settle::<L>(wave, surfaces, lighting, radiance, depth == 1);

@@ -137,9 +137,9 @@ fn draw_paths(picture: &mut Picture, layout: &Layout, paths: &[Segment]) {
 
 fn draw_eye(picture: &mut Picture, layout: &Layout, camera: &Camera) {
     let eye = layout.place(flat(camera.eye));
-    let down = (camera.p2 - camera.p0) * 0.5;
+    let down = camera.down * 0.5;
     let place = |point: Vec3| layout.place(flat(point));
-    let (left, right) = (place(camera.p0 + down), place(camera.p1 + down));
+    let (left, right) = (place(camera.p0() + down), place(camera.p1() + down));
     // Any screen that is the same seen from the eye gives the same rays: one too small or too large to see on the
     // pane is drawn moved along them.
     let length = (right - left).length();
@@ -238,8 +238,7 @@ mod tests {
             ..Description::default()
         };
         let eye = Vec3::new(0.0, 1.0, 5.0);
-        let corner = |x: f32, y: f32| eye + Vec3::new(x, y, -1.5);
-        let camera = Camera { eye, p0: corner(-1.0, 1.0), p1: corner(1.0, 1.0), p2: corner(-1.0, -1.0) };
+        let camera = Camera { eye, corner: Vec3::new(-1.0, 1.0, -1.5), across: Vec3::X * 2.0, down: Vec3::Y * -2.0 };
         let mut picture = Picture::new(width, height);
         draw(&mut picture, &Map::new(&description).layout(width, height), &description, &camera, paths);
         picture

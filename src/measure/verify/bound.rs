@@ -56,12 +56,15 @@ impl Neighbourhood {
         (a * cos + b * sin) * spread(i, 3.0).sqrt()
     }
 
-    /// Within the unit ball.
+    /// Within the unit ball; every other one near its middle, at all scales down to 1e-6, since where two surfaces
+    /// meet at a flat angle only a small shift lies between the one and the other.
     fn shift(&self, i: u32) -> DVec3 {
         let z = 2.0 * spread(i, 5.0) - 1.0;
         let (sin, cos) = (TAU * spread(i, 7.0)).sin_cos();
         let across = (1.0 - z * z).sqrt();
-        DVec3::new(across * cos, across * sin, z) * spread(i, PI).cbrt()
+        let far = spread(i, PI).cbrt();
+        let radius = if (i / 6).is_multiple_of(2) { far } else { 1e-6_f64.powf(spread(i, PI)) };
+        DVec3::new(across * cos, across * sin, z) * radius
     }
 }
 
