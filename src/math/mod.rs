@@ -1,1 +1,4 @@
 //! TODO.
+mod isa;
+
+pub use isa::isa;

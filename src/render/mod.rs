@@ -1,4 +1,6 @@
 //! From a compiled scene and a camera to an image.
+pub mod output;
+
 use crate::scene::{CameraDescription, Scene};
 use glam::Vec3;
 
