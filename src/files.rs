@@ -24,9 +24,9 @@ pub struct FileError {
 #[derive(Debug)]
 pub struct Target {
     /// As the user gave it.
-    shown: PathBuf,
-    /// With symbolic links followed: the link stays and what it points to is replaced.
     path: PathBuf,
+    /// With symbolic links followed: the link stays and what it points to is replaced.
+    real: PathBuf,
     /// A device or pipe: written to directly, as renaming would replace the device itself.
     special: bool,
 }
@@ -43,13 +43,13 @@ impl Target {
         }
         let target = match fs::metadata(path) {
             Ok(meta) if meta.is_dir() => return Err(error("is a folder, not a file".into())),
-            Ok(meta) if !meta.is_file() => Self { shown: path.into(), path: path.into(), special: true },
+            Ok(meta) if !meta.is_file() => Self { path: path.into(), real: path.into(), special: true },
             Ok(meta) if meta.permissions().readonly() => return Err(error("is read-only".into())),
             Ok(_) => {
                 let real = fs::canonicalize(path).map_err(|e| error(reason(&e)))?;
-                Self { shown: path.into(), path: real, special: false }
+                Self { path: path.into(), real, special: false }
             }
-            Err(_) => Self { shown: path.into(), path: path.into(), special: false },
+            Err(_) => Self { path: path.into(), real: path.into(), special: false },
         };
         if target.special {
             return Ok(target);
@@ -64,7 +64,7 @@ impl Target {
 
     /// The path, as the user gave it.
     pub fn path(&self) -> &Path {
-        &self.shown
+        &self.path
     }
 
     /// Calls `write` with a buffered file and gives that file the target's name, with the permissions that a new
@@ -79,18 +79,18 @@ impl Target {
             buffer.flush()
         };
         if self.special {
-            let file = File::options().write(true).open(&self.path).map_err(|e| self.error(&e))?;
+            let file = File::options().write(true).open(&self.real).map_err(|e| self.error(&e))?;
             return fill(&file).map_err(|e| self.error(&e));
         }
         let temporary = self.temporary()?;
         fill(temporary.as_file()).map_err(|e| self.error(&e))?;
-        temporary.persist(&self.path).map_err(|e| self.error(&e.error))?;
+        temporary.persist(&self.real).map_err(|e| self.error(&e.error))?;
         Ok(())
     }
 
     /// The folder the file is in: what it shares a file system with, so that renaming is atomic.
     fn folder(&self) -> &Path {
-        match self.path.parent() {
+        match self.real.parent() {
             Some(parent) if parent != OsStr::new("") => parent,
             _ => Path::new("."),
         }
@@ -106,7 +106,7 @@ impl Target {
     }
 
     fn error(&self, error: &io::Error) -> FileError {
-        FileError { path: self.shown.clone(), problem: format!("cannot be written: {}", reason(error)) }
+        FileError { path: self.path.clone(), problem: format!("cannot be written: {}", reason(error)) }
     }
 }
 
@@ -185,8 +185,7 @@ mod tests {
     fn links_and_devices_stay_what_they_are() {
         use std::os::unix::fs::{FileTypeExt, PermissionsExt};
         let folder = tempfile::tempdir().unwrap();
-        let (real, link, plain) =
-            (folder.path().join("real"), folder.path().join("link"), folder.path().join("plain"));
+        let (real, link, plain) = (folder.path().join("real"), folder.path().join("link"), folder.path().join("plain"));
         fs::write(&real, "old").unwrap();
         std::os::unix::fs::symlink(&real, &link).unwrap();
         write_atomically(&link, |file| file.write_all(b"new")).unwrap();

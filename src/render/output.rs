@@ -85,13 +85,7 @@ pub fn write_display(pixels: &[u32], width: usize, target: &Target) -> Result<()
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn write_aov(
-    hits: &PrimaryHits,
-    aov: Aov,
-    width: usize,
-    format: Format,
-    target: &Target,
-) -> Result<(), FileError> {
+pub fn write_aov(hits: &PrimaryHits, aov: Aov, width: usize, format: Format, target: &Target) -> Result<(), FileError> {
     match format {
         Format::Png => {
             let pixels = match aov {
