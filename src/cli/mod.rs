@@ -6,7 +6,6 @@
 
 mod args;
 mod bench;
-pub mod cpu;
 mod info;
 mod input;
 mod print;
@@ -66,8 +65,6 @@ impl Failure {
 }
 
 /// Parses the arguments and does what they say. Wrong usage ends the program here with status 2.
-// Not inlined, so that none of its instructions end up before `main`'s look at the CPU.
-#[inline(never)]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let done = match cli.command.unwrap_or(Command::View(cli.view)) {
@@ -85,7 +82,7 @@ pub fn run() -> ExitCode {
 }
 
 /// Prints `raypacket: message` on standard error, always as one line, and gives the status back.
-pub fn fail(status: u8, message: &str) -> ExitCode {
+fn fail(status: u8, message: &str) -> ExitCode {
     let line = message.lines().map(str::trim).filter(|l| !l.is_empty()).collect::<Vec<_>>().join("; ");
     // Should standard error be closed, then nobody wants to know.
     let _ = writeln!(std::io::stderr(), "raypacket: {line}");
