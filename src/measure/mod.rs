@@ -27,16 +27,20 @@ pub mod bench {
     /// STUB.
     pub struct Options {
         /// STUB.
-        pub threads: usize,
-        /// STUB.
         pub rays: Option<std::path::PathBuf>,
         /// STUB.
-        pub size: (usize, usize),
+        pub size: [usize; 2],
     }
     /// STUB.
     #[derive(Debug, thiserror::Error)]
-    #[error("{0}")]
-    pub struct BenchError(String);
+    pub enum BenchError {
+        /// STUB.
+        #[error(transparent)]
+        Scene(crate::scene::Invalid),
+        /// STUB.
+        #[error("{0}")]
+        Rays(String),
+    }
     /// STUB.
     #[derive(serde::Serialize)]
     pub struct Row {
@@ -52,7 +56,7 @@ pub mod bench {
     #[derive(serde::Serialize)]
     pub struct Report {
         scene: String,
-        size: (usize, usize),
+        size: [usize; 2],
         threads: usize,
         isa: &'static str,
         /// STUB.
@@ -70,16 +74,16 @@ pub mod bench {
     /// STUB.
     pub fn run(d: &Description, o: &Options) -> Result<Report, BenchError> {
         if let Some(rays) = &o.rays {
-            let len = std::fs::metadata(rays).map_err(|e| BenchError(format!("{}: {e}", rays.display())))?.len();
+            let len = std::fs::metadata(rays).map_err(|e| BenchError::Rays(format!("{}: {e}", rays.display())))?.len();
             if len % 32 != 0 {
-                return Err(BenchError(format!("{}: {len} bytes", rays.display())));
+                return Err(BenchError::Rays(format!("{}: {len} bytes", rays.display())));
             }
         }
         let row = |query| Row { query, kernel: "x8", rays: 1, hits: 1, sum_t: 1.0, mrays_median: 1.0, mrays_best: 1.0 };
         Ok(Report {
             scene: d.name.clone(),
             size: o.size,
-            threads: o.threads,
+            threads: rayon::current_num_threads(),
             isa: crate::math::isa(),
             valid: true,
             results: if o.rays.is_some() {

@@ -12,12 +12,18 @@ pub struct Options {
 }
 /// STUB.
 #[derive(Debug, thiserror::Error)]
-#[error("no display; try raypacket render")]
-pub struct ViewerError;
+pub enum ViewerError {
+    /// STUB.
+    #[error("there is no display; `raypacket render`")]
+    NoDisplay,
+    /// STUB.
+    #[error("{0} x {1}")]
+    Size(usize, usize),
+}
 /// STUB.
 ///
 /// # Errors
 /// STUB.
 pub fn run(_d: &crate::scene::Description, _s: &crate::scene::Scene, _o: &Options) -> Result<(), ViewerError> {
-    Err(ViewerError)
+    Err(ViewerError::NoDisplay)
 }
