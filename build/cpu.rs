@@ -18,7 +18,7 @@ enum State {
 }
 
 /// The features of a list separated by commas that are not there, in the order given.
-pub fn missing<'a>(compiled: &'a [u8], has: impl Fn(&[u8]) -> bool) -> impl Iterator<Item = &'a [u8]> {
+pub fn missing(compiled: &[u8], has: impl Fn(&[u8]) -> bool) -> impl Iterator<Item = &[u8]> {
     compiled.split(|&byte| byte == b',').filter(move |feature| !feature.is_empty() && !has(feature))
 }
 

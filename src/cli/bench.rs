@@ -2,7 +2,7 @@
 
 use super::args::{DEFAULT_SCENE, Json, Size, Threads};
 use super::{Failure, input, print};
-use raypacket::measure::bench;
+use raypacket::measure::bench::{self, BenchError};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -30,14 +30,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let json = args.json.as_deref().map(Json::new).transpose()?;
     let scenes = input::load_all(&args.scenes)?;
-    let options = bench::Options {
-        threads: args.threads.start()?,
-        rays: args.rays.clone(),
-        size: (args.size.width, args.size.height),
-    };
+    args.threads.start()?;
+    let options = bench::Options { size: [args.size.width, args.size.height], rays: args.rays.clone() };
     let mut reports = Vec::new();
     for (name, scene) in args.scenes.iter().zip(&scenes) {
-        let report = bench::run(scene, &options).map_err(|e| Failure::input(format!("{name}: {e}")))?;
+        let report = bench::run(scene, &options).map_err(|e| failure(name, &e))?;
         if !matches!(json, Some(Json::Stdout)) {
             print::line(&report)?;
         }
@@ -51,4 +48,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::runtime(format!("the answers do not agree with the reference: {}", wrong.join(", "))))
+}
+
+fn failure(scene: &str, error: &BenchError) -> Failure {
+    match error {
+        BenchError::Scene(invalid) => Failure::input(format!("{scene}: {invalid}")),
+        // It names its file.
+        BenchError::Rays(rays) => Failure::input(rays),
+    }
 }

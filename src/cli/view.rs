@@ -5,7 +5,7 @@ use super::{Failure, input};
 use raypacket::files::Target;
 use raypacket::render::Kernel;
 use raypacket::render::output::Format;
-use raypacket::viewer;
+use raypacket::viewer::{self, ViewerError};
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -42,7 +42,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         frames: args.frames,
         screenshot: args.screenshot.clone(),
     };
-    viewer::run(&description, &scene, &options).map_err(Failure::runtime)
+    viewer::run(&description, &scene, &options).map_err(|e| match e {
+        ViewerError::Size(..) => Failure::input(e),
+        _ => Failure::runtime(e),
+    })
 }
 
 /// Finds out now what would otherwise be known only when the window closes.

@@ -141,7 +141,7 @@ fn unit_to_byte(x: f32) -> u8 {
     (x * 255.0).round() as u8
 }
 
-/// Nearest white, farthest a tenth of it, by log t; nothing (an infinite t) black.
+/// Nearest white, farthest a fifth of it, by log t; nothing (an infinite t) black.
 fn grey_depth(t: &[f32]) -> Vec<[u8; 3]> {
     let log = |t: f32| t.max(f32::MIN_POSITIVE).ln();
     let (mut near, mut far) = (f32::INFINITY, f32::NEG_INFINITY);
@@ -150,7 +150,7 @@ fn grey_depth(t: &[f32]) -> Vec<[u8; 3]> {
         far = far.max(log(t));
     }
     let range = if far > near { far - near } else { 1.0 };
-    let grey = |&t: &f32| if t.is_finite() { 1.0 - 0.9 * (log(t) - near) / range } else { 0.0 };
+    let grey = |&t: &f32| if t.is_finite() { 1.0 - 0.8 * (log(t) - near) / range } else { 0.0 };
     t.iter().map(|t| [unit_to_byte(grey(t)); 3]).collect()
 }
 
@@ -199,10 +199,10 @@ mod tests {
     #[test]
     fn depth_runs_from_white_to_dark_grey() {
         let grey = |t: &[f32]| -> Vec<u8> { grey_depth(t).iter().map(|p| p[0]).collect() };
-        assert_eq!(grey(&[1.0, 10.0, 100.0, f32::INFINITY]), [255, 140, 26, 0]);
+        assert_eq!(grey(&[1.0, 10.0, 100.0, f32::INFINITY]), [255, 153, 51, 0]);
         assert_eq!(grey(&[3.0, f32::INFINITY]), [255, 0]);
         assert_eq!(grey(&[f32::INFINITY; 2]), [0, 0]);
-        assert_eq!(grey(&[0.0, f32::MAX]), [255, 26]);
+        assert_eq!(grey(&[0.0, f32::MAX]), [255, 51]);
     }
 
     #[test]
