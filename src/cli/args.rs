@@ -72,7 +72,7 @@ pub fn kernel() -> impl TypedValueParser<Value = Kernel> {
 #[derive(clap::Args, Clone, Copy)]
 pub struct Threads {
     /// Threads to trace with, 1 to 1024 [default: one for each processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
 

@@ -12,7 +12,7 @@ pub struct Args {
     #[arg(value_name = "SCENE", default_value = DEFAULT_SCENE)]
     scenes: Vec<String>,
     /// The width and height in pixels of the image whose rays are traced
-    #[arg(long, value_name = "WxH", default_value = "1024x512")]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
     size: Size,
     #[command(flatten)]
     threads: Threads,

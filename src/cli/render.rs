@@ -22,10 +22,10 @@ pub struct Args {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The picture's width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1024x512")]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
     size: Size,
     /// N x N rays a pixel on a regular grid, 1 to 64
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
     samples: u32,
     /// How many rays are traced at once, or the slow scalar tracer that all else is checked against
     #[arg(long, default_value = "x8", value_parser = tracer())]

@@ -13,7 +13,7 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
     /// The width and height in pixels of the image that is compared
-    #[arg(long, value_name = "WxH", default_value = "256x128")]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "256x128")]
     size: Size,
     /// Write the results as JSON, with - to standard output
     #[arg(long, value_name = "FILE|-")]

@@ -14,7 +14,7 @@ pub struct Args {
     #[arg(default_value = DEFAULT_SCENE)]
     pub scene: String,
     /// The window's width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1024x512")]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
     pub size: Size,
     /// How many rays are traced at once
     #[arg(long, default_value = "x8", value_parser = kernel())]
@@ -22,7 +22,7 @@ pub struct Args {
     #[command(flatten)]
     pub threads: Threads,
     /// Close the window after N frames
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub frames: Option<u64>,
     /// Save what the window shows last as PNG
     #[arg(long, value_name = "FILE.png")]
