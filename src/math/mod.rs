@@ -1,4 +1,14 @@
-//! TODO.
-mod isa;
+//! The mathematics of a packet: [`Lanes`] (1, 4 or 8 numbers at once), [`Vec3`] over them, rays and hits in
+//! structure-of-arrays batches, and a few scalar functions with stated errors.
 
+mod batch;
+mod isa;
+mod lanes;
+mod power;
+mod vec3;
+
+pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
+pub use lanes::{LaneMask, Lanes, fused_mul_add};
+pub use power::{powf, srgb8};
+pub use vec3::Vec3;

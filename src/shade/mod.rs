@@ -1,35 +1,15 @@
-//! Whitted shading.
-use crate::scene::Scene;
-use glam::Vec3;
+//! Whitted shading in waves: all rays of a tile are traced, shaded and reflected together.
+//!
+//! A point's light is Σ E (color · n·l + specular · (r·l)^shininess) over the lights it sees, with
+//! E = power / (4 π r²), and ambient · color; a mirror of fraction ρ shows (1 − ρ) of that and ρ of what it
+//! reflects (Whitted, *An Improved Illumination Model for Shaded Display*, 1980).
 
-/// What a segment of a path is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SegmentKind {
-    /// From the eye.
-    Primary,
-    /// Between a hit point and a light.
-    Shadow {
-        /// Whether something lies between them.
-        blocked: bool,
-    },
-    /// From a mirror.
-    Reflection,
-}
+mod light;
+mod path;
+mod spawn;
+mod surface;
+mod wave;
 
-/// One straight piece of the light paths that one eye ray sets off.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
-    /// What it is.
-    pub kind: SegmentKind,
-    /// Where it starts.
-    pub from: Vec3,
-    /// Where it ends; None when it leaves the scene.
-    pub to: Option<Vec3>,
-    /// Its unit direction.
-    pub direction: Vec3,
-}
-
-/// All segments an eye ray sets off, in the order they are traced; for drawing.
-pub fn path(_scene: &Scene, _origin: Vec3, _direction: Vec3) -> Vec<Segment> {
-    todo!()
-}
+pub use path::{Segment, SegmentKind, path};
+pub(crate) use surface::facing_normal;
+pub use wave::{Counts, Observer, Workspace, trace_waves};

@@ -1,0 +1,136 @@
+//! The infinite plane p·n + distance = 0, seen from both sides.
+//!
+//! One method: t = −(n·o + distance) / (n·d), with the normal as the user gave it, of any length, so that nothing
+//! is lost in normalising it (Haines, *Essential Ray Tracing Algorithms*, in Glassner 1989, §2.1).
+//! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n|.
+//! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
+
+use super::{Nearest, Surface};
+use crate::math::{LaneMask, Lanes, Vec3};
+
+/// Planes, column by column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Planes {
+    /// Normals of any length.
+    pub normal: [Vec<f32>; 3],
+    /// Offsets.
+    pub distance: Vec<f32>,
+    /// Indices into the scene's materials.
+    pub material: Vec<u32>,
+}
+
+/// What a plane's test needs of it and of the rays' origin.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenPlane<L> {
+    /// The normal.
+    pub normal: Vec3<L>,
+    /// −(n·o + distance).
+    pub height: L,
+}
+
+impl Planes {
+    /// The number of planes.
+    pub fn len(&self) -> usize {
+        self.distance.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.distance.is_empty()
+    }
+
+    /// Adds a plane.
+    pub fn push(&mut self, normal: glam::Vec3, distance: f32, material: u32) {
+        for axis in 0..3 {
+            self.normal[axis].push(normal[axis]);
+        }
+        self.distance.push(distance);
+        self.material.push(material);
+    }
+
+    /// Plane `i`'s normal.
+    pub fn normal(&self, i: usize) -> glam::Vec3 {
+        glam::Vec3::new(self.normal[0][i], self.normal[1][i], self.normal[2][i])
+    }
+
+    /// Plane `i` as seen from `origin`.
+    #[inline(always)]
+    pub fn seen<L: Lanes>(&self, i: usize, origin: Vec3<L>) -> SeenPlane<L> {
+        SeenPlane::new(Vec3::splat(self.normal(i)), L::splat(self.distance[i]), origin)
+    }
+
+    /// The surface of plane `i` at `point`, which lies near it.
+    #[inline(always)]
+    pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
+        // In f64, where the square of a tiny normal does not vanish.
+        let raw = self.normal(i).as_dvec3();
+        let length = raw.length();
+        let normal = Vec3::splat((raw / length).as_vec3());
+        let height = normal.dot(point) + L::splat((f64::from(self.distance[i]) / length) as f32);
+        Surface { point: normal.mul_add(-height, point), normal, reach: 0.0 }
+    }
+}
+
+/// The plane's distance along `direction`, inside (`t_min`, `t_max`).
+#[inline(always)]
+pub fn nearest<L: Lanes>(seen: &SeenPlane<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    let t = seen.height / seen.normal.dot(direction);
+    let inside = t.gt(t_min) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
+impl<L: Lanes> SeenPlane<L> {
+    /// A plane as seen from `origin`.
+    #[inline(always)]
+    pub fn new(normal: Vec3<L>, distance: L, origin: Vec3<L>) -> Self {
+        Self { normal, height: -(normal.dot(origin) + distance) }
+    }
+}
+
+impl SeenPlane<f32> {
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn splat<L: Lanes>(&self) -> SeenPlane<L> {
+        SeenPlane { normal: Vec3::splat(self.normal.into()), height: L::splat(self.height) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::vec3;
+
+    fn hit(normal: glam::Vec3, distance: f32, origin: glam::Vec3, direction: glam::Vec3) -> Option<f32> {
+        let mut planes = Planes::default();
+        planes.push(normal, distance, 0);
+        nearest(&planes.seen(0, origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
+    }
+
+    #[test]
+    fn both_sides_and_any_normal_length() {
+        for normal in [vec3(0.0, 1.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 1e-3, 0.0), vec3(0.0, 7.0, 0.0)] {
+            assert_eq!(hit(normal, 0.0, vec3(0.0, 2.0, 0.0), vec3(0.0, -1.0, 0.0)), Some(2.0));
+            assert_eq!(hit(normal, 0.0, vec3(0.0, -2.0, 0.0), vec3(0.0, 1.0, 0.0)), Some(2.0));
+            assert_eq!(hit(normal, 0.0, vec3(0.0, -2.0, 0.0), vec3(0.0, -1.0, 0.0)), None);
+        }
+    }
+
+    #[test]
+    fn parallel_rays_and_rays_from_the_plane_miss() {
+        for y in [0.0, -0.0, 1.0, -1.0] {
+            for d in [vec3(1.0, 0.0, 0.0), vec3(0.0, -0.0, 1.0)] {
+                assert_eq!(hit(glam::Vec3::Y, 0.0, vec3(3.0, y, 0.0), d), None, "{y} {d}");
+            }
+        }
+        assert_eq!(hit(glam::Vec3::Y, 0.0, glam::Vec3::ZERO, vec3(0.0, 1.0, 0.0)), None);
+    }
+
+    #[test]
+    fn surface_moves_the_point_onto_the_plane() {
+        let mut planes = Planes::default();
+        planes.push(vec3(0.0, 2.0, 0.0), -6.0, 0);
+        let s = planes.surface::<f32>(0, vec3(5.0, 3.25, -1.0).into());
+        assert_eq!((s.point.x, s.point.y, s.point.z), (5.0, 3.0, -1.0));
+        assert_eq!(s.normal.y, 1.0);
+    }
+}

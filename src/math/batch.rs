@@ -1,0 +1,109 @@
+//! Rays and their answers in structure-of-arrays batches, the unit that both queries work on.
+
+use glam::Vec3;
+
+/// The most rays a batch holds: a tile of 16 × 16 pixels, or any other rays that belong together.
+pub const BATCH: usize = 256;
+
+/// No primitive: the id that a ray which hits nothing gets.
+pub const NONE: u32 = u32::MAX;
+
+/// Up to [`BATCH`] rays, column by column.
+///
+/// A ray is active when its `t_max` ≥ 0 (NaN is not). Directions have unit length, to within 4 ε; distances are
+/// then in world units. A query looks at the open interval (`t_min`, `t_max`), 0 ≤ `t_min`.
+/// A ray with a NaN or infinite component hits nothing, or whatever the arithmetic makes of it, and leaves the
+/// other rays of its batch alone.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct RayBatch {
+    /// Rays at `len` and beyond are inactive; kept so by [`RayBatch::push`] and [`RayBatch::clear`].
+    pub len: usize,
+    /// Where the rays start, a column a component.
+    pub origin: [[f32; BATCH]; 3],
+    /// Unit directions.
+    pub direction: [[f32; BATCH]; 3],
+    /// Start of the interval, excluded.
+    pub t_min: [f32; BATCH],
+    /// End of the interval, excluded; below zero for an inactive ray.
+    pub t_max: [f32; BATCH],
+}
+
+impl Default for RayBatch {
+    fn default() -> Self {
+        Self {
+            len: 0,
+            origin: [[0.0; BATCH]; 3],
+            direction: [[0.0; BATCH]; 3],
+            t_min: [0.0; BATCH],
+            t_max: [-1.0; BATCH],
+        }
+    }
+}
+
+impl RayBatch {
+    /// Forgets all rays.
+    pub fn clear(&mut self) {
+        self.t_max[..self.len].fill(-1.0);
+        self.len = 0;
+    }
+
+    /// Adds a ray. Panics when the batch is full.
+    pub fn push(&mut self, origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) {
+        let at = self.len;
+        for axis in 0..3 {
+            self.origin[axis][at] = origin[axis];
+            self.direction[axis][at] = direction[axis];
+        }
+        self.t_min[at] = t_min;
+        self.t_max[at] = t_max;
+        self.len = at + 1;
+    }
+
+    /// The number of active rays.
+    pub fn active(&self) -> usize {
+        self.t_max[..self.len].iter().filter(|&&t| t >= 0.0).count()
+    }
+}
+
+/// The nearest hits of a [`RayBatch`]. Entries of inactive rays are left as they were.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(align(64))]
+pub struct HitBatch {
+    /// Distance; infinite for an active ray that hits nothing.
+    pub t: [f32; BATCH],
+    /// Primitive id; [`NONE`] for an active ray that hits nothing.
+    pub primitive: [u32; BATCH],
+}
+
+impl Default for HitBatch {
+    fn default() -> Self {
+        Self { t: [f32::INFINITY; BATCH], primitive: [NONE; BATCH] }
+    }
+}
+
+/// Which rays of a [`RayBatch`] are blocked, a bit each; bits of inactive rays are left as they were.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Blocked {
+    words: [u64; BATCH / 64],
+}
+
+impl Blocked {
+    /// Bits `at..at + width`, `at` a multiple of `width`, `width` a power of two up to 32.
+    #[inline(always)]
+    pub fn get(&self, at: usize, width: usize) -> u32 {
+        ((self.words[at / 64] >> (at % 64)) & ((1 << width) - 1)) as u32
+    }
+
+    /// Sets those bits where `mask` has ones to those of `bits`.
+    #[inline(always)]
+    pub fn set(&mut self, at: usize, mask: u32, bits: u32) {
+        let word = &mut self.words[at / 64];
+        *word = (*word & !(u64::from(mask) << (at % 64))) | (u64::from(bits & mask) << (at % 64));
+    }
+
+    /// The number of blocked rays.
+    pub fn count(&self) -> usize {
+        self.words.iter().map(|w| w.count_ones() as usize).sum()
+    }
+}

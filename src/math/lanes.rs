@@ -1,0 +1,421 @@
+//! One kernel text for all widths: a kernel is generic over [`Lanes`].
+
+use std::fmt::Debug;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use bytemuck::cast;
+use wide::{f32x4, f32x8, u32x4, u32x8};
+
+use super::NONE;
+
+/// One truth value a lane.
+pub trait LaneMask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Whether any lane is true.
+    fn any(self) -> bool;
+    /// Whether every lane is true.
+    fn all(self) -> bool;
+    /// Lane i as bit i.
+    fn bits(self) -> u32;
+    /// Bit i as lane i; higher bits are ignored.
+    fn from_bits(bits: u32) -> Self;
+}
+
+/// `WIDTH` numbers that are worked on at once: `f32` (x1), [`f32x4`] (x4), [`f32x8`] (x8).
+///
+/// Every operation is one IEEE 754 operation per lane, so that within one build all widths give the same bits.
+/// [`Lanes::mul_add`] is fused in a build with FMA and rounds twice in a build without, on every width.
+pub trait Lanes:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The number of lanes.
+    const WIDTH: usize;
+    /// `x1`, `x4`, `x8`.
+    const NAME: &'static str;
+    /// What comparisons give.
+    type Mask: LaneMask;
+
+    /// The same number in every lane.
+    fn splat(value: f32) -> Self;
+    /// The first `WIDTH` numbers of a slice. Panics when it is shorter.
+    fn load(from: &[f32]) -> Self;
+    /// Writes the lanes to the start of a slice. Panics when it is shorter.
+    fn store(self, to: &mut [f32]);
+    /// self · a + b.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// b − self · a.
+    fn neg_mul_add(self, a: Self, b: Self) -> Self {
+        (-self).mul_add(a, b)
+    }
+    /// Square root, correctly rounded; NaN below zero.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// The largest whole number not above.
+    fn floor(self) -> Self;
+    /// The lesser; `other` where either is NaN, so an accumulator passed as `other` outlives a NaN.
+    fn min(self, other: Self) -> Self;
+    /// The greater; `other` where either is NaN.
+    fn max(self, other: Self) -> Self;
+    /// self < other; false where either is NaN, as all comparisons here.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// self ≤ other.
+    fn le(self, other: Self) -> Self::Mask;
+    /// self = other.
+    fn eq(self, other: Self) -> Self::Mask;
+    /// self > other.
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+    /// self ≥ other.
+    fn ge(self, other: Self) -> Self::Mask {
+        other.le(self)
+    }
+    /// `self` where the mask is true, `other` elsewhere; moves bits, whatever they mean.
+    fn select(self, mask: Self::Mask, other: Self) -> Self;
+
+    /// Zero in every lane.
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+    /// An id in every lane, as the bits of a number; only ever selected and stored.
+    fn splat_id(id: u32) -> Self {
+        Self::splat(f32::from_bits(id))
+    }
+    /// Lanes whose id is `id`; reads the first `WIDTH` ids. Panics when there are fewer.
+    fn id_mask(ids: &[u32], id: u32) -> Self::Mask;
+    /// Writes the first `WIDTH` distances and ids where the mask is true: the distance, or infinity where the id
+    /// bits are [`super::NONE`].
+    fn store_hits(t: Self, id: Self, mask: Self::Mask, to_t: &mut [f32], to_id: &mut [u32]);
+    /// Folds the lanes with `f`, from lane 0 up.
+    fn fold(self, f: impl Fn(f32, f32) -> f32) -> f32;
+}
+
+/// a · b + c as [`Lanes::mul_add`] does it in this build; `f32::mul_add` would call a slow library function
+/// where there is no FMA instruction.
+#[inline(always)]
+pub fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
+    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
+}
+
+impl LaneMask for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self as u32
+    }
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        bits & 1 != 0
+    }
+}
+
+impl Lanes for f32 {
+    const WIDTH: usize = 1;
+    const NAME: &'static str = "x1";
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn load(from: &[f32]) -> Self {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        to[0] = self;
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        fused_mul_add(self, a, b)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32::abs(self)
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        f32::floor(self)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> bool {
+        self == other
+    }
+    #[inline(always)]
+    fn select(self, mask: bool, other: Self) -> Self {
+        if mask { self } else { other }
+    }
+    #[inline(always)]
+    fn id_mask(ids: &[u32], id: u32) -> bool {
+        ids[0] == id
+    }
+    #[inline(always)]
+    fn store_hits(t: Self, id: Self, mask: bool, to_t: &mut [f32], to_id: &mut [u32]) {
+        if mask {
+            to_id[0] = id.to_bits();
+            to_t[0] = if id.to_bits() == NONE { f32::INFINITY } else { t };
+        }
+    }
+    #[inline(always)]
+    fn fold(self, _f: impl Fn(f32, f32) -> f32) -> f32 {
+        self
+    }
+}
+
+/// A wide type as lanes; `$int` has as many unsigned integers, `$powers` is lane i ↦ 2^i.
+macro_rules! wide_lanes {
+    ($float:ident, $int:ident, $width:literal, $name:literal, $powers:expr) => {
+        impl LaneMask for $float {
+            #[inline(always)]
+            fn any(self) -> bool {
+                $float::any(self)
+            }
+            #[inline(always)]
+            fn all(self) -> bool {
+                $float::all(self)
+            }
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                self.to_bitmask() as u32
+            }
+            #[inline(always)]
+            fn from_bits(bits: u32) -> Self {
+                let powers = $int::new($powers);
+                cast::<$int, $float>(($int::splat(bits) & powers).simd_eq(powers))
+            }
+        }
+
+        impl Lanes for $float {
+            const WIDTH: usize = $width;
+            const NAME: &'static str = $name;
+            type Mask = $float;
+
+            #[inline(always)]
+            fn splat(value: f32) -> Self {
+                $float::splat(value)
+            }
+            #[inline(always)]
+            fn load(from: &[f32]) -> Self {
+                let lanes: [f32; $width] = from[..$width].try_into().expect("the slice has this length");
+                $float::new(lanes)
+            }
+            #[inline(always)]
+            fn store(self, to: &mut [f32]) {
+                to[..$width].copy_from_slice(&self.to_array());
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $float::mul_add(self, a, b)
+            }
+            #[inline(always)]
+            fn neg_mul_add(self, a: Self, b: Self) -> Self {
+                self.mul_neg_add(a, b)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                $float::floor(self)
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                // On x86 the instruction has the NaN rule that we state; elsewhere we spell it out.
+                if cfg!(target_arch = "x86_64") {
+                    self.fast_min(other)
+                } else {
+                    self.select(self.simd_lt(other), other)
+                }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if cfg!(target_arch = "x86_64") {
+                    self.fast_max(other)
+                } else {
+                    self.select(self.simd_gt(other), other)
+                }
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> Self {
+                self.simd_lt(other)
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> Self {
+                self.simd_le(other)
+            }
+            #[inline(always)]
+            fn eq(self, other: Self) -> Self {
+                self.simd_eq(other)
+            }
+            #[inline(always)]
+            fn select(self, mask: Self, other: Self) -> Self {
+                wide::Select::select(mask, self, other)
+            }
+            #[inline(always)]
+            fn id_mask(ids: &[u32], id: u32) -> Self {
+                let ids: [u32; $width] = ids[..$width].try_into().expect("the slice has this length");
+                cast::<$int, $float>($int::new(ids).simd_eq($int::splat(id)))
+            }
+            #[inline(always)]
+            fn store_hits(t: Self, id: Self, mask: Self, to_t: &mut [f32], to_id: &mut [u32]) {
+                let ids = cast::<$float, $int>(id);
+                let none = cast::<$int, $float>(ids.simd_eq($int::splat(NONE)));
+                let t = $float::splat(f32::INFINITY).select(none, t);
+                if LaneMask::all(mask) {
+                    t.store(to_t);
+                    to_id[..$width].copy_from_slice(&ids.to_array());
+                } else {
+                    let old: [u32; $width] = to_id[..$width].try_into().expect("the slice has this length");
+                    let ids = id.select(mask, cast::<$int, $float>($int::new(old)));
+                    t.select(mask, $float::load(to_t)).store(to_t);
+                    to_id[..$width].copy_from_slice(&cast::<$float, $int>(ids).to_array());
+                }
+            }
+            #[inline(always)]
+            fn fold(self, f: impl Fn(f32, f32) -> f32) -> f32 {
+                let lanes = self.to_array();
+                lanes[1..].iter().fold(lanes[0], |a, &b| f(a, b))
+            }
+        }
+    };
+}
+
+wide_lanes!(f32x4, u32x4, 4, "x4", [1, 2, 4, 8]);
+wide_lanes!(f32x8, u32x8, 8, "x8", [1, 2, 4, 8, 16, 32, 64, 128]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers that tell operations apart: signed zeros, NaN, infinities, subnormals, halves.
+    const PROBES: [f32; 16] = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.5,
+        0.1,
+        3.0e38,
+        -3.0e38,
+        1.0e-40,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::NAN,
+        2.5,
+        -2.5,
+        1.0e7,
+        0.333_333_34,
+        -7.25,
+    ];
+
+    fn bits_of<L: Lanes>(op: impl Fn(L, L, L) -> L) -> Vec<u32> {
+        let mut out = Vec::new();
+        for shift in 0..PROBES.len() {
+            for at in (0..PROBES.len()).step_by(L::WIDTH) {
+                let turned = |k: usize| -> Vec<f32> {
+                    (0..L::WIDTH).map(|i| PROBES[(at + i + k * shift) % PROBES.len()]).collect()
+                };
+                let mut lanes = vec![0.0; L::WIDTH];
+                op(L::load(&turned(0)), L::load(&turned(1)), L::load(&turned(3))).store(&mut lanes);
+                out.extend(lanes.iter().map(|v| if v.is_nan() { u32::MAX } else { v.to_bits() }));
+            }
+        }
+        out
+    }
+
+    macro_rules! same_on_all_widths {
+        ($($name:ident: |$a:ident, $b:ident, $c:ident| $op:expr;)*) => {$(
+            #[test]
+            fn $name() {
+                // Generic, so that the trait's methods are meant and not the types' own of the same name.
+                fn op<L: Lanes>($a: L, $b: L, $c: L) -> L {
+                    $op
+                }
+                let one = bits_of::<f32>(op);
+                assert_eq!(one, bits_of::<f32x4>(op), "x4");
+                assert_eq!(one, bits_of::<f32x8>(op), "x8");
+            }
+        )*};
+    }
+
+    same_on_all_widths! {
+        add: |a, b, _c| a + b;
+        sub: |a, b, _c| a - b;
+        mul: |a, b, _c| a * b;
+        div: |a, b, _c| a / b;
+        neg: |a, _b, _c| -a;
+        mul_add: |a, b, c| a.mul_add(b, c);
+        neg_mul_add: |a, b, c| a.neg_mul_add(b, c);
+        sqrt: |a, _b, _c| a.sqrt();
+        abs: |a, _b, _c| a.abs();
+        floor: |a, _b, _c| a.floor();
+        min: |a, b, _c| a.min(b);
+        max: |a, b, _c| a.max(b);
+        lt: |a, b, c| a.select(a.lt(b), c);
+        le: |a, b, c| a.select(a.le(b), c);
+        eq: |a, b, c| a.select(a.eq(b), c);
+        gt_and_not: |a, b, c| a.select(!a.gt(b) & c.ge(b), c);
+    }
+
+    #[test]
+    fn min_and_max_give_the_other_for_nan() {
+        fn check<L: Lanes>() {
+            let nan = L::splat(f32::NAN);
+            let two = L::splat(2.0);
+            assert!(nan.min(two).eq(two).all() && nan.max(two).eq(two).all(), "{}", L::NAME);
+        }
+        check::<f32>();
+        check::<f32x4>();
+        check::<f32x8>();
+    }
+
+    #[test]
+    fn masks_turn_into_bits_and_back() {
+        for bits in 0..256 {
+            assert_eq!(<f32x8 as LaneMask>::from_bits(bits).bits(), bits);
+            assert_eq!(<f32x4 as LaneMask>::from_bits(bits).bits(), bits & 15);
+            assert_eq!(<bool as LaneMask>::from_bits(bits).bits(), bits & 1);
+        }
+    }
+}

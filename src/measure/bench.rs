@@ -1,0 +1,253 @@
+//! `raypacket bench`: rays a second, by query and kernel, with a check of the answers in the same run.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::rays::{self, RayFileError};
+use super::streams::Streams;
+use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa};
+use crate::render::{Camera, Kernel, render_display, with_lanes};
+use crate::scene::{Description, Invalid, Scene, compile};
+use crate::trace::{Candidates, intersect, occluded};
+
+/// Timed runs of each kernel: as many as fit the budget, within these bounds.
+const RUNS: std::ops::RangeInclusive<usize> = 3..=31;
+/// Time for the runs of one query, all kernels together.
+const BUDGET: Duration = Duration::from_secs(4);
+
+/// What to measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Width and height of the picture whose rays are traced.
+    pub size: [usize; 2],
+    /// A file of rays to trace instead; see [`super::rays`].
+    pub rays: Option<PathBuf>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { size: [1024, 512], rays: None }
+    }
+}
+
+/// One query at one kernel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measured {
+    /// `primary`, `shadow`, `reflection`, `frame`, or `rays:` and the ray file's extension.
+    pub query: String,
+    /// `x1`, `x4`, `x8`.
+    pub kernel: &'static str,
+    /// Active rays; for `frame`, all rays of all kinds.
+    pub rays: u64,
+    /// Rays that hit, or are blocked; 0 for `frame`.
+    pub hits: u64,
+    /// The sum of the distances of all hits; 0 for shadow rays and `frame`.
+    pub sum_t: f64,
+    /// 10⁶ rays a second, median of the runs.
+    pub mrays_median: f64,
+    /// The best run.
+    pub mrays_best: f64,
+}
+
+/// What [`run`] found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The scene's name.
+    pub scene: String,
+    /// Width and height of the picture.
+    pub size: [usize; 2],
+    /// Threads of the pool it ran in.
+    pub threads: usize,
+    /// The instruction set this build uses.
+    pub isa: &'static str,
+    /// Whether the answers agreed: all kernels with each other to the bit, and a smaller picture with the reference.
+    pub valid: bool,
+    /// By query, then by kernel.
+    pub results: Vec<Measured>,
+}
+
+/// Why there is nothing to report.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// The scene is not sound.
+    #[error(transparent)]
+    Scene(#[from] Invalid),
+    /// The ray file is not sound.
+    #[error(transparent)]
+    Rays(#[from] RayFileError),
+}
+
+/// Measures a scene in the caller's rayon pool.
+///
+/// Timed are the calls of the query for a whole set of rays that lie in memory, batch by batch, from the batch's
+/// bounds to the stored answer; for `frame`, everything from the eye ray to the display pixel. The kernels take
+/// turns, so that a drift of the machine hits all alike; the first turn warms up and is not counted.
+///
+/// # Errors
+/// [`BenchError`] when the scene or the ray file is not sound.
+pub fn run(description: &Description, options: &Options) -> Result<Report, BenchError> {
+    let scene = compile(description)?;
+    let mut results = Vec::new();
+    let mut same = true;
+    let mut measure = |query: String, shadow: bool, batches: &[RayBatch]| {
+        let (measured, agree) = time_query(&scene, &query, shadow, batches);
+        results.extend(measured);
+        same &= agree;
+    };
+    if let Some(path) = &options.rays {
+        let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
+        let batches = rays::read(path)?;
+        measure(format!("rays:{extension}"), extension == "shadow", &batches);
+    } else {
+        let [width, height] = options.size;
+        let camera = Camera::new(&description.camera, width as f32 / height as f32);
+        let streams = Streams::of(&scene, &camera, width, height);
+        measure("primary".into(), false, &streams.primary);
+        measure("shadow".into(), true, &streams.shadow);
+        measure("reflection".into(), false, &streams.reflection);
+        results.extend(time_frames(&scene, &camera, options.size));
+    }
+    Ok(Report {
+        scene: description.name.clone(),
+        size: options.size,
+        threads: rayon::current_num_threads(),
+        isa: isa(),
+        valid: same && agrees_with_reference(description),
+        results,
+    })
+}
+
+/// Whether a picture small enough for brute force agrees with the reference.
+fn agrees_with_reference(description: &Description) -> bool {
+    let affordable = 200_000_000 / (description.primitives() + 20);
+    let height = ((affordable / 2) as f64).sqrt().clamp(8.0, 128.0) as usize;
+    super::verify::verify(description, &Kernel::ALL, 2 * height, height).pass
+}
+
+/// Times one query at every kernel; also whether all kernels gave the same bits.
+fn time_query(scene: &Scene, query: &str, shadow: bool, batches: &[RayBatch]) -> (Vec<Measured>, bool) {
+    let active: u64 = batches.iter().map(|b| b.active() as u64).sum();
+    if active == 0 && query != "primary" && !query.starts_with("rays:") {
+        return (Vec::new(), true);
+    }
+    let mut answers: Vec<Answers> = Kernel::ALL.iter().map(|_| Answers::new(shadow, batches.len())).collect();
+    let times = take_turns(|kernel| answers[kernel as usize].fill(scene, kernel, batches));
+    let same = answers.windows(2).all(|pair| pair[0] == pair[1]);
+    let measured = Kernel::ALL.iter().zip(times).zip(&answers).map(|((kernel, times), answers)| {
+        let (hits, sum_t) = answers.sum(batches);
+        measured(query, *kernel, active, hits, sum_t, times)
+    });
+    (measured.collect(), same)
+}
+
+/// Times whole frames at every kernel.
+fn time_frames(scene: &Scene, camera: &Camera, [width, height]: [usize; 2]) -> Vec<Measured> {
+    let mut pixels = vec![0; width * height];
+    let mut rays = 0;
+    let times = take_turns(|kernel| rays = render_display(scene, camera, kernel, width, height, &mut pixels).total());
+    let of = |(kernel, times): (&Kernel, _)| measured("frame", *kernel, rays, 0, 0.0, times);
+    Kernel::ALL.iter().zip(times).map(of).collect()
+}
+
+/// Runs every kernel in turn until the budget is spent; the times of each, in seconds.
+fn take_turns(mut run: impl FnMut(Kernel)) -> Vec<Vec<f64>> {
+    let mut times = vec![Vec::new(); Kernel::ALL.len()];
+    Kernel::ALL.into_iter().for_each(&mut run);
+    let start = Instant::now();
+    while times[0].len() < *RUNS.end() && (times[0].len() < *RUNS.start() || start.elapsed() < BUDGET) {
+        for (kernel, times) in Kernel::ALL.into_iter().zip(&mut times) {
+            let start = Instant::now();
+            run(kernel);
+            times.push(start.elapsed().as_secs_f64());
+        }
+    }
+    times
+}
+
+fn measured(query: &str, kernel: Kernel, rays: u64, hits: u64, sum_t: f64, mut times: Vec<f64>) -> Measured {
+    times.sort_by(f64::total_cmp);
+    let mrays = |seconds: f64| if rays == 0 { 0.0 } else { rays as f64 / seconds.max(1e-9) * 1e-6 };
+    Measured {
+        query: query.into(),
+        kernel: kernel.name(),
+        rays,
+        hits,
+        sum_t,
+        mrays_median: mrays(times[times.len() / 2]),
+        mrays_best: mrays(times[0]),
+    }
+}
+
+/// The answers to a set of batches.
+#[derive(Debug, PartialEq)]
+enum Answers {
+    Nearest(Vec<HitBatch>),
+    Any(Vec<Blocked>),
+}
+
+impl Answers {
+    fn new(shadow: bool, batches: usize) -> Self {
+        match shadow {
+            true => Self::Any(vec![Blocked::default(); batches]),
+            false => Self::Nearest(vec![HitBatch::default(); batches]),
+        }
+    }
+
+    /// Answers all batches, in parallel where the pool has more than one thread.
+    fn fill(&mut self, scene: &Scene, kernel: Kernel, batches: &[RayBatch]) {
+        with_lanes!(kernel, fill(self, scene, batches));
+    }
+
+    /// The number of hits and the sum of their distances.
+    fn sum(&self, batches: &[RayBatch]) -> (u64, f64) {
+        match self {
+            Self::Any(blocked) => (blocked.iter().map(|b| b.count() as u64).sum(), 0.0),
+            Self::Nearest(hits) => hits.iter().zip(batches).fold((0, 0.0), |sum, (hits, rays)| {
+                (0..rays.len)
+                    .filter(|&i| rays.t_max[i] >= 0.0 && hits.primitive[i] != NONE)
+                    .fold(sum, |(n, t), i| (n + 1, t + f64::from(hits.t[i])))
+            }),
+        }
+    }
+}
+
+fn fill<L: Lanes>(answers: &mut Answers, scene: &Scene, batches: &[RayBatch]) {
+    match answers {
+        Answers::Nearest(hits) => each(batches, hits, |rays, hits, scratch| intersect::<L>(scene, rays, hits, scratch)),
+        Answers::Any(blocked) => each(batches, blocked, |rays, b, scratch| occluded::<L>(scene, rays, b, scratch)),
+    }
+}
+
+fn each<A: Send>(batches: &[RayBatch], answers: &mut [A], query: impl Fn(&RayBatch, &mut A, &mut Candidates) + Sync) {
+    if rayon::current_num_threads() == 1 {
+        let mut scratch = Candidates::default();
+        batches.iter().zip(answers).for_each(|(rays, answer)| query(rays, answer, &mut scratch));
+    } else {
+        batches
+            .par_iter()
+            .zip(answers)
+            .with_min_len(16)
+            .for_each_init(Candidates::default, |scratch, (rays, answer)| query(rays, answer, scratch));
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let [w, h] = self.size;
+        let valid = if self.valid { "answers agree" } else { "ANSWERS DISAGREE" };
+        writeln!(f, "{}  {w}×{h}  {} threads  {}  {valid}", self.scene, self.threads, self.isa)?;
+        write!(f, "{:12} {:6} {:>10} {:>10} {:>12} {:>12}", "query", "kernel", "rays", "hits", "Mrays/s", "best")?;
+        for r in &self.results {
+            write!(
+                f,
+                "\n{:12} {:6} {:>10} {:>10} {:>12.2} {:>12.2}",
+                r.query, r.kernel, r.rays, r.hits, r.mrays_median, r.mrays_best
+            )?;
+        }
+        Ok(())
+    }
+}

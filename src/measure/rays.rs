@@ -1,0 +1,150 @@
+//! Ray files: little-endian `f32`, eight a ray: origin xyz, t_min, direction xyz, t_max; t_max < 0 marks an
+//! inactive ray.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use crate::math::{BATCH, RayBatch};
+use glam::Vec3;
+
+/// Bytes a ray.
+const RECORD: usize = 32;
+
+/// How far the square of a direction's length may be from 1.
+const UNIT: f32 = 1e-5;
+
+/// Why a ray file cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum RayFileError {
+    /// The file cannot be read.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file does not end with a whole record.
+    #[error("{}: {bytes} bytes are not a whole number of {RECORD}-byte rays", path.display())]
+    Length {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// A ray that is none.
+    #[error("{}: ray {index}: {problem}", path.display())]
+    Ray {
+        /// The file.
+        path: PathBuf,
+        /// Counted from 0.
+        index: u64,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+/// Reads a ray file into batches of [`BATCH`] rays in the file's order.
+///
+/// # Errors
+/// [`RayFileError`] when the file cannot be read, is cut off, or has an active ray whose direction is not of length
+/// 1 or whose numbers are not finite (t_max may be infinite).
+pub fn read(path: &Path) -> Result<Vec<RayBatch>, RayFileError> {
+    let io = |source| RayFileError::Io { path: path.into(), source };
+    let file = File::open(path).map_err(io)?;
+    let bytes = file.metadata().map_err(io)?.len();
+    if bytes % RECORD as u64 != 0 {
+        return Err(RayFileError::Length { path: path.into(), bytes });
+    }
+    let count = bytes / RECORD as u64;
+    let mut reader = BufReader::with_capacity(1 << 20, file);
+    let mut batches: Vec<RayBatch> = Vec::new();
+    for index in 0..count {
+        let mut record = [0; RECORD];
+        reader.read_exact(&mut record).map_err(io)?;
+        if index % BATCH as u64 == 0 {
+            batches.push(RayBatch::default());
+        }
+        let n: [f32; 8] =
+            std::array::from_fn(|i| f32::from_le_bytes(record[4 * i..4 * i + 4].try_into().expect("four bytes")));
+        let batch = batches.last_mut().expect("one was just pushed");
+        if n[7] < 0.0 {
+            batch.push(Vec3::ZERO, Vec3::Z, 0.0, -1.0);
+            continue;
+        }
+        check(&n).map_err(|problem| RayFileError::Ray { path: path.into(), index, problem })?;
+        batch.push(Vec3::new(n[0], n[1], n[2]), Vec3::new(n[4], n[5], n[6]), n[3], n[7]);
+    }
+    Ok(batches)
+}
+
+/// Says what is wrong with an active record.
+fn check(n: &[f32; 8]) -> Result<(), String> {
+    if let Some(bad) = n[..7].iter().find(|v| !v.is_finite()) {
+        return Err(format!("{bad} is not a finite number"));
+    }
+    if n[7].is_nan() {
+        return Err("t_max is not a number".into());
+    }
+    if n[3] < 0.0 {
+        return Err(format!("t_min must not be below 0, got {}", n[3]));
+    }
+    let length2 = Vec3::new(n[4], n[5], n[6]).length_squared();
+    if (length2 - 1.0).abs() > UNIT {
+        return Err(format!("the direction must have length 1, got {}", length2.sqrt()));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    fn file(rays: &[[f32; 8]], extra: usize) -> tempfile::NamedTempFile {
+        let mut file = tempfile::NamedTempFile::new().unwrap();
+        for n in rays.iter().flatten() {
+            file.write_all(&n.to_le_bytes()).unwrap();
+        }
+        file.write_all(&vec![0; extra]).unwrap();
+        file
+    }
+
+    const GOOD: [f32; 8] = [1.0, 2.0, 3.0, 0.0, 0.0, 0.6, 0.8, 1e30];
+
+    #[test]
+    fn rays_come_back_in_order() {
+        let mut rays = vec![GOOD; 300];
+        rays[257][7] = -1.0;
+        rays[258][0] = 9.0;
+        let batches = read(file(&rays, 0).path()).unwrap();
+        assert_eq!(batches.iter().map(|b| b.len).collect::<Vec<_>>(), [256, 44]);
+        assert_eq!(batches.iter().map(RayBatch::active).sum::<usize>(), 299);
+        assert_eq!((batches[1].origin[0][2], batches[1].direction[1][2], batches[1].t_max[1]), (9.0, 0.6, -1.0));
+        assert!(read(file(&[], 0).path()).unwrap().is_empty());
+    }
+
+    #[test]
+    fn errors_name_the_file_and_the_ray() {
+        let message = |rays: &[[f32; 8]], extra| {
+            let file = file(rays, extra);
+            let text = read(file.path()).unwrap_err().to_string();
+            text.replace(&file.path().display().to_string(), "FILE")
+        };
+        assert_eq!(message(&[GOOD], 5), "FILE: 37 bytes are not a whole number of 32-byte rays");
+        let mut bad = GOOD;
+        bad[5] = 0.0;
+        assert_eq!(message(&[GOOD, bad], 0), "FILE: ray 1: the direction must have length 1, got 0.8");
+        bad = GOOD;
+        bad[1] = f32::NAN;
+        assert_eq!(message(&[bad], 0), "FILE: ray 0: NaN is not a finite number");
+        bad = GOOD;
+        bad[7] = f32::NAN;
+        assert_eq!(message(&[bad], 0), "FILE: ray 0: t_max is not a number");
+        bad = GOOD;
+        bad[3] = -1.0;
+        assert_eq!(message(&[bad], 0), "FILE: ray 0: t_min must not be below 0, got -1");
+        assert!(read(Path::new("nowhere.primary")).unwrap_err().to_string().starts_with("nowhere.primary: "));
+    }
+}

@@ -1,0 +1,260 @@
+//! Tiles: 16 × 16 pixels whose rays go through the tracer together.
+//!
+//! A rayon task is a row of tiles, since its pixels lie together in memory and can be written without locks; the
+//! picture depends neither on the order of the tiles nor on the number of threads.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::kernel::with_lanes;
+use super::{Camera, Film, Kernel, tone_map};
+use crate::math::{BATCH, Lanes, NONE, RayBatch, Vec3};
+use crate::scene::Scene;
+use crate::shade::{Counts, Observer, Workspace, facing_normal, trace_waves};
+use crate::trace::{Candidates, intersect};
+
+/// Pixels along a tile's edge.
+pub const TILE: usize = 16;
+
+const _: () = assert!(TILE * TILE == BATCH);
+
+/// Where ray i lies in its tile, `[x, y]`: blocks of 4 × 4 pixels, row by row within and among them, so that 4 and
+/// 8 rays in a row are 4 × 1 and 4 × 2 pixels.
+const PLACE: [[u8; 2]; BATCH] = {
+    let mut place = [[0; 2]; BATCH];
+    let mut i = 0;
+    while i < BATCH {
+        let (block, pixel) = (i / 16, i % 16);
+        place[i] = [(block % 4 * 4 + pixel % 4) as u8, (block / 4 * 4 + pixel / 4) as u8];
+        i += 1;
+    }
+    place
+};
+
+/// [`PLACE`] as numbers, column by column.
+const OFFSET: [[f32; BATCH]; 2] = {
+    let mut offset = [[0.0; BATCH]; 2];
+    let mut i = 0;
+    while i < BATCH {
+        offset[0][i] = PLACE[i][0] as f32;
+        offset[1][i] = PLACE[i][1] as f32;
+        i += 1;
+    }
+    offset
+};
+
+/// The eye rays of a picture: a camera and the picture's size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    camera: Camera,
+    width: usize,
+    height: usize,
+}
+
+impl Grid {
+    pub(crate) fn new(camera: &Camera, width: usize, height: usize) -> Self {
+        Self { camera: *camera, width, height }
+    }
+
+    /// Fills a batch with the eye rays of the tile whose first pixel is `first`, through the point `within` of every
+    /// pixel (½, ½ is the centre). Rays beyond the picture's edge are inactive.
+    pub(crate) fn fill<L: Lanes>(&self, first: [usize; 2], within: [f32; 2], rays: &mut RayBatch) {
+        let [per_x, per_y] = [1.0 / self.width as f32, 1.0 / self.height as f32];
+        let [x0, y0] = [L::splat(first[0] as f32), L::splat(first[1] as f32)];
+        let [in_x, in_y] = within.map(L::splat);
+        let size = [L::splat(self.width as f32), L::splat(self.height as f32)];
+        let [corner, across, down] = [self.camera.corner, self.camera.across, self.camera.down].map(Vec3::splat);
+        let eye = Vec3::<L>::splat(self.camera.eye);
+        rays.len = BATCH;
+        for at in (0..BATCH).step_by(L::WIDTH) {
+            let (x, y) = (x0 + L::load(&OFFSET[0][at..]), y0 + L::load(&OFFSET[1][at..]));
+            let (u, v) = ((x + in_x) * L::splat(per_x), (y + in_y) * L::splat(per_y));
+            let direction = across.mul_add(u, down.mul_add(v, corner)).normalize();
+            let active = x.lt(size[0]) & y.lt(size[1]);
+            eye.store(&mut rays.origin, at);
+            direction.store(&mut rays.direction, at);
+            L::splat(f32::INFINITY).select(active, L::splat(-1.0)).store(&mut rays.t_max[at..]);
+        }
+    }
+}
+
+/// Renders with `samples` × `samples` rays a pixel on a regular grid, in the caller's rayon pool.
+///
+/// `progress` is called now and then with the share done, 0 to 1, from any thread.
+pub fn render(
+    scene: &Scene,
+    camera: &Camera,
+    kernel: Kernel,
+    samples: u32,
+    film: &mut Film,
+    progress: &(dyn Fn(f32) + Sync),
+) -> Counts {
+    let grid = Grid::new(camera, film.width, film.height);
+    let done = AtomicUsize::new(0);
+    let rows = film.height.div_ceil(TILE);
+    let samples = samples.max(1);
+    let tile = |work: &mut Work, first: [usize; 2]| {
+        let counts = with_lanes!(kernel, sampled(scene, &grid, first, samples, work));
+        if first[0] + TILE >= grid.width {
+            let rows_done = 1 + done.fetch_add(1, Ordering::Relaxed);
+            progress(rows_done as f32 / rows as f32);
+        }
+        counts
+    };
+    let scale = 1.0 / (samples * samples) as f32;
+    over_tiles(&mut film.pixels, film.width, tile, |work, i| [0, 1, 2].map(|axis| work.sum[axis][i] * scale))
+}
+
+/// Renders one sample a pixel straight to 0RGB with the sRGB curve, for a window; `pixels` holds width × height.
+///
+/// # Panics
+/// When `pixels` has another length.
+pub fn render_display(
+    scene: &Scene,
+    camera: &Camera,
+    kernel: Kernel,
+    width: usize,
+    height: usize,
+    pixels: &mut [u32],
+) -> Counts {
+    assert_eq!(pixels.len(), width * height, "the buffer holds the picture");
+    let grid = Grid::new(camera, width, height);
+    let tile = |work: &mut Work, first: [usize; 2]| {
+        let counts = with_lanes!(kernel, centred(scene, &grid, first, work));
+        let [r, g, b] = &work.shading.radiance;
+        for i in 0..BATCH {
+            work.display[i] = tone_map([r[i], g[i], b[i]]);
+        }
+        counts
+    };
+    over_tiles(pixels, width, tile, |work, i| work.display[i])
+}
+
+/// The nearest hits of the pixel-centre rays, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrimaryHits {
+    /// Distance; infinite where nothing is hit.
+    pub t: Vec<f32>,
+    /// Primitive id; [`NONE`] where nothing is hit.
+    pub primitive: Vec<u32>,
+    /// Unit normal, turned against the ray; zero where nothing is hit.
+    pub normal: Vec<[f32; 3]>,
+}
+
+/// Traces the pixel-centre rays only, in the caller's rayon pool.
+pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize, height: usize) -> PrimaryHits {
+    let grid = Grid::new(camera, width, height);
+    let mut hits = vec![(f32::INFINITY, NONE, [0.0; 3]); width * height];
+    let tile = |work: &mut Work, first: [usize; 2]| {
+        with_lanes!(kernel, traced(scene, &grid, first, work));
+        Counts::default()
+    };
+    over_tiles(&mut hits, width, tile, |work, i| {
+        let (t, id) = (work.shading.hits.t[i], work.shading.hits.primitive[i]);
+        let rays = &work.shading.primary.rays;
+        let at = |c: &[[f32; BATCH]; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
+        (t, id, facing_normal(scene, id, at(&rays.origin), at(&rays.direction), t))
+    });
+    PrimaryHits {
+        t: hits.iter().map(|h| h.0).collect(),
+        primitive: hits.iter().map(|h| h.1).collect(),
+        normal: hits.iter().map(|h| h.2).collect(),
+    }
+}
+
+/// What a thread keeps between tiles.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+struct Work {
+    shading: Workspace,
+    sum: [[f32; BATCH]; 3],
+    display: [u32; BATCH],
+    candidates: Candidates,
+}
+
+impl Default for Work {
+    fn default() -> Self {
+        Self {
+            shading: Workspace::default(),
+            sum: [[0.0; BATCH]; 3],
+            display: [0; BATCH],
+            candidates: Candidates::default(),
+        }
+    }
+}
+
+/// Runs `tile` on every tile, rows of tiles in parallel, and stores `pixel` of every ray where it belongs.
+fn over_tiles<P: Send>(
+    pixels: &mut [P],
+    width: usize,
+    tile: impl Fn(&mut Work, [usize; 2]) -> Counts + Sync,
+    pixel: impl Fn(&Work, usize) -> P + Sync,
+) -> Counts {
+    if width == 0 {
+        return Counts::default();
+    }
+    let strip = |work: &mut Box<Work>, (row, strip): (usize, &mut [P])| {
+        let mut counts = Counts::default();
+        for x0 in (0..width).step_by(TILE) {
+            counts = counts + tile(work, [x0, row * TILE]);
+            for (i, &[x, y]) in PLACE.iter().enumerate() {
+                let (x, y) = (x0 + usize::from(x), usize::from(y));
+                if x < width && y * width < strip.len() {
+                    strip[y * width + x] = pixel(work, i);
+                }
+            }
+        }
+        counts
+    };
+    let strips = pixels.par_chunks_mut(width * TILE).enumerate();
+    strips.map_init(Box::<Work>::default, strip).reduce(Counts::default, |a, b| a + b)
+}
+
+fn centred<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) -> Counts {
+    grid.fill::<L>(first, [0.5, 0.5], &mut work.shading.primary.rays);
+    trace_waves::<L>(scene, &mut work.shading, &mut ())
+}
+
+fn sampled<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], samples: u32, work: &mut Work) -> Counts {
+    let mut counts = Counts::default();
+    work.sum = [[0.0; BATCH]; 3];
+    for sy in 0..samples {
+        for sx in 0..samples {
+            let within = [sx, sy].map(|s| (s as f32 + 0.5) / samples as f32);
+            grid.fill::<L>(first, within, &mut work.shading.primary.rays);
+            counts = counts + trace_waves::<L>(scene, &mut work.shading, &mut ());
+            for (sum, part) in work.sum.iter_mut().zip(&work.shading.radiance) {
+                for i in 0..BATCH {
+                    sum[i] += part[i];
+                }
+            }
+        }
+    }
+    counts
+}
+
+/// Renders every `stride`-th tile on this thread, in order, and shows its rays to `observer`.
+pub fn record(
+    scene: &Scene,
+    camera: &Camera,
+    kernel: Kernel,
+    [width, height]: [usize; 2],
+    stride: usize,
+    observer: &mut impl Observer,
+) -> Counts {
+    let grid = Grid::new(camera, width, height);
+    let mut work = Box::<Workspace>::default();
+    let mut counts = Counts::default();
+    let across = width.div_ceil(TILE);
+    for tile in (0..across * height.div_ceil(TILE)).step_by(stride.max(1)) {
+        grid.fill::<f32>([tile % across * TILE, tile / across * TILE], [0.5, 0.5], &mut work.primary.rays);
+        counts = counts + with_lanes!(kernel, trace_waves(scene, &mut work, observer));
+    }
+    counts
+}
+
+fn traced<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) {
+    grid.fill::<L>(first, [0.5, 0.5], &mut work.shading.primary.rays);
+    intersect::<L>(scene, &work.shading.primary.rays, &mut work.shading.hits, &mut work.candidates);
+}

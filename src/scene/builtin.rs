@@ -1,0 +1,65 @@
+//! The scenes that come with the program; their TOML files are in `scenes/`, to copy and edit.
+
+use std::path::Path;
+
+use super::{Description, ReadError, parse, read};
+
+/// A scene that comes with the program.
+#[derive(Clone, Copy, Debug)]
+pub struct Builtin {
+    /// What it is called by.
+    pub name: &'static str,
+    /// What it shows, in a line.
+    pub summary: &'static str,
+    /// Its TOML text.
+    pub source: &'static str,
+}
+
+macro_rules! builtin {
+    ($name:literal, $summary:literal) => {
+        Builtin { name: $name, summary: $summary, source: include_str!(concat!("../../scenes/", $name, ".toml")) }
+    };
+}
+
+static BUILTINS: [Builtin; 4] = [
+    builtin!("classic", "mirrors and coloured spheres on a checkerboard, under two coloured lights"),
+    builtin!("flake", "a sphereflake: 7,381 partly mirrored spheres on a floor"),
+    builtin!("hall", "spheres between two facing mirrors, twelve reflections deep"),
+    builtin!("cosmos", "radii and distances from 1e-3 to 1e6: pebbles, planets and moons"),
+];
+
+/// The built-in scenes.
+pub fn builtins() -> &'static [Builtin] {
+    &BUILTINS
+}
+
+/// Reads a scene by the path of its file or by its built-in name.
+///
+/// What has an extension, or is a file, is a path; anything else is a name.
+///
+/// # Errors
+/// [`ReadError`] for a name that is not known, a format that is not supported, or a faulty file.
+pub fn load(name_or_path: &str) -> Result<Description, ReadError> {
+    let path = Path::new(name_or_path);
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("toml") => read(path),
+        Some(format @ ("nff" | "obj")) => Err(unsupported(path, &format!("scenes in .{format} files"))),
+        Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
+        None if path.is_file() => read(path),
+        _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {
+            Some(builtin) => parse(builtin.source, Path::new(&format!("scenes/{}.toml", builtin.name))),
+            None => {
+                Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") })
+            }
+        },
+    }
+}
+
+fn unsupported(path: &Path, what: &str) -> ReadError {
+    ReadError::File { path: path.into(), problem: format!("{what} are not supported yet") }
+}
+
+#[cfg(test)]
+#[path = "builtin_tests.rs"]
+mod tests;

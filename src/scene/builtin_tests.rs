@@ -1,0 +1,109 @@
+use super::*;
+use crate::scene::{Pigment, Sphere};
+
+#[path = "../../examples/sphereflake/flake.rs"]
+mod flake;
+
+fn scene(name: &str) -> Description {
+    load(name).unwrap()
+}
+
+fn radii(spheres: &[Sphere]) -> (f32, f32) {
+    spheres.iter().fold((f32::INFINITY, 0.0), |(low, high), s| (low.min(s.radius), high.max(s.radius)))
+}
+
+#[test]
+fn every_builtin_is_sound_and_bears_its_name() {
+    for builtin in builtins() {
+        let scene = scene(builtin.name);
+        assert_eq!(scene.name, builtin.name);
+        assert!(!builtin.summary.contains('\n') && scene.primitives() > 0 && !scene.lights.is_empty());
+        let eye = scene.camera.eye.as_dvec3();
+        for (i, s) in scene.spheres.iter().enumerate() {
+            let outside = eye.distance(s.center.as_dvec3()) > f64::from(s.radius);
+            assert!(outside, "{}: the eye is in sphere {i}", builtin.name);
+        }
+    }
+}
+
+#[test]
+fn classic_is_the_lectures_scene() {
+    let classic = scene("classic");
+    let mirror = |low: f32, high: f32| {
+        classic.spheres.iter().any(|s| (low..=high).contains(&classic.materials[s.material].reflectance))
+    };
+    assert!((3..=7).contains(&classic.spheres.len()) && classic.lights.len() == 2 && classic.planes.len() == 1);
+    assert!(mirror(0.85, 1.0), "one full mirror");
+    assert!(mirror(0.3, 0.5), "one partial mirror");
+    assert!(matches!(classic.materials[classic.planes[0].material].pigment, Pigment::Checker { .. }));
+    assert_eq!(classic.settings.max_depth, 6);
+    for (i, a) in classic.spheres.iter().enumerate() {
+        for b in &classic.spheres[..i] {
+            assert!(a.center.distance(b.center) > a.radius + b.radius, "spheres {i} and another overlap");
+        }
+    }
+}
+
+#[test]
+fn flake_is_what_its_generator_makes() {
+    let source = builtins().iter().find(|b| b.name == "flake").unwrap().source;
+    assert!(source == flake::toml(), "run `cargo run --example sphereflake > scenes/flake.toml`");
+}
+
+#[test]
+fn flake_has_five_levels_that_touch() {
+    let flake = scene("flake");
+    assert_eq!((flake.spheres.len(), flake.planes.len()), (7381, 1));
+    for (level, count) in [1, 9, 81, 729, 6561].into_iter().enumerate() {
+        let radius = 0.5 / 3.0_f32.powi(level as i32);
+        let found = flake.spheres.iter().filter(|s| (s.radius - radius).abs() < 1e-5).count();
+        assert_eq!(found, count, "level {level}");
+    }
+    let root = flake.spheres[0];
+    let children = flake.spheres.iter().filter(|s| (s.radius - 0.5 / 3.0).abs() < 1e-4);
+    for child in children {
+        assert!((root.center.distance(child.center) - root.radius - child.radius).abs() < 3e-5);
+    }
+    let lowest = flake.spheres.iter().map(|s| s.center.y - s.radius).fold(f32::INFINITY, f32::min);
+    assert!(lowest.abs() < 1e-5, "it stands on the floor, not in it: {lowest}");
+}
+
+#[test]
+fn hall_has_facing_mirrors() {
+    let hall = scene("hall");
+    let mirrors: Vec<_> = hall.planes.iter().filter(|p| hall.materials[p.material].reflectance > 0.9).collect();
+    assert_eq!(mirrors.len(), 2);
+    assert_eq!(mirrors[0].normal, -mirrors[1].normal);
+    assert_eq!(hall.settings.max_depth, 12);
+    for (i, s) in hall.spheres.iter().enumerate() {
+        for p in &hall.planes {
+            assert!(p.normal.dot(s.center) + p.distance >= s.radius, "sphere {i} cuts a plane");
+        }
+    }
+}
+
+#[test]
+fn cosmos_spans_nine_orders_of_magnitude() {
+    let cosmos = scene("cosmos");
+    assert_eq!(radii(&cosmos.spheres), (1e-3, 1e6));
+    assert!(cosmos.planes.is_empty() && !cosmos.settings.attenuation);
+    let eye = cosmos.camera.eye;
+    assert!(cosmos.spheres.iter().any(|s| s.center.distance(eye) < 0.1));
+    assert!(cosmos.spheres.iter().any(|s| s.center.distance(eye) > 5e5));
+}
+
+#[test]
+fn what_cannot_be_loaded_is_said_in_one_line() {
+    for (name, message) in [
+        ("nowhere", "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
+        ("", ": no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
+        ("a\nb", "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
+        ("x.png", "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
+        ("bunny.obj", "bunny.obj: scenes in .obj files are not supported yet"),
+        ("balls.NFF", "balls.NFF: scenes in .nff files are not supported yet"),
+        ("Cargo.lock", "Cargo.lock: scenes in .lock files are not supported yet"),
+        ("none.toml", "none.toml: No such file or directory (os error 2)"),
+    ] {
+        assert_eq!(load(name).unwrap_err().to_string(), message);
+    }
+}

@@ -1,0 +1,128 @@
+//! From a file to a [`Description`]; every fault is one line that names the file, the line and the key.
+
+mod obj;
+mod place;
+mod strict;
+mod toml;
+
+use std::{
+    fmt,
+    fs::File,
+    io::{self, Read},
+    path::{Path, PathBuf},
+};
+
+use super::Description;
+
+/// The largest scene file that is read. Parsing takes up to about a hundred times the file's size in memory.
+pub const MAX_TOML_BYTES: u64 = 16 << 20;
+
+/// The most that is read from all mesh files of a scene together. Reading takes up to about twenty times as much
+/// memory.
+pub const MAX_OBJ_BYTES: u64 = 256 << 20;
+
+/// Longer keys and problems are cut: a message quotes what the file says, which may be anything.
+const MAX_QUOTE: usize = 300;
+
+/// Why a scene could not be read. `Display` is one line, whatever the file holds.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file cannot be opened or read.
+    #[error("{}: {source}", one_line(path.display()))]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file as a whole cannot be used.
+    #[error("{}: {problem}", one_line(path.display()))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        problem: String,
+    },
+    /// A line of the file is wrong.
+    #[error("{}:{line}: {key}: {problem}", one_line(file.display()))]
+    At {
+        /// The file.
+        file: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The key at fault: `sphere[2].radius`.
+        key: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Neither a file nor a built-in scene.
+    #[error("{}: no such file, nor a built-in scene ({builtins})", one_line(name))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The built-in names, with commas between.
+        builtins: String,
+    },
+}
+
+impl ReadError {
+    fn at(file: &Path, line: usize, key: impl fmt::Display, problem: impl fmt::Display) -> Self {
+        Self::At { file: file.into(), line, key: one_line(key), problem: one_line(problem) }
+    }
+}
+
+/// Reads a scene file in TOML. Mesh files are looked for beside it.
+///
+/// # Errors
+/// [`ReadError`] for a file that cannot be read or does not describe a sound scene.
+pub fn read(path: &Path) -> Result<Description, ReadError> {
+    let bytes = bytes_of(path, MAX_TOML_BYTES)?;
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => parse(text, path),
+        Err(error) => {
+            let (line, quote) = place::quote(&bytes, error.valid_up_to());
+            Err(ReadError::at(path, line, quote, "not UTF-8 text"))
+        }
+    }
+}
+
+/// Reads a scene from TOML text; `file` is named in messages, and mesh files are looked for beside it.
+///
+/// # Errors
+/// [`ReadError`] when the text does not describe a sound scene.
+pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
+    toml::parse(text, file)
+}
+
+/// The whole of a file that is no longer than `limit`.
+fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let io = |source| ReadError::Io { path: path.into(), source };
+    let file = File::open(path).map_err(io)?;
+    let mut bytes = Vec::new();
+    // The length is asked first to spare the reading, and again afterwards since a device has none.
+    if file.metadata().map_err(io)?.len() <= limit {
+        file.take(limit + 1).read_to_end(&mut bytes).map_err(io)?;
+        if bytes.len() as u64 <= limit {
+            return Ok(bytes);
+        }
+    }
+    Err(ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") })
+}
+
+/// The text with control characters escaped, and cut when it is very long.
+fn one_line(text: impl fmt::Display) -> String {
+    let text = text.to_string();
+    let mut line = String::new();
+    for c in text.chars().take(MAX_QUOTE) {
+        // U+2028 and U+2029 end a line for some readers too.
+        if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}') {
+            line.extend(c.escape_default());
+        } else {
+            line.push(c);
+        }
+    }
+    if text.chars().nth(MAX_QUOTE).is_some() {
+        line.push('…');
+    }
+    line
+}

@@ -1,0 +1,69 @@
+//! One eye ray and all that follows from it, segment by segment; for drawing.
+
+use super::spawn;
+use super::surface::surface;
+use crate::math::Vec3 as Lane3;
+use crate::scene::Scene;
+use crate::trace::{intersect_one, occluded_one};
+use glam::Vec3;
+
+/// What a segment of a path is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SegmentKind {
+    /// From the eye.
+    Primary,
+    /// From a hit point to a light that it faces.
+    Shadow {
+        /// Whether something lies between them.
+        blocked: bool,
+    },
+    /// From a mirror.
+    Reflection,
+}
+
+/// One straight piece of the light paths that one eye ray sets off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// What it is.
+    pub kind: SegmentKind,
+    /// Where it starts.
+    pub from: Vec3,
+    /// Where it ends; None when it leaves the scene.
+    pub to: Option<Vec3>,
+    /// Its unit direction.
+    pub direction: Vec3,
+}
+
+/// All segments an eye ray sets off, in the order they are traced.
+pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    let (mut from, mut direction) = (origin, direction);
+    let mut kind = SegmentKind::Primary;
+    for depth in 1..=scene.plan.waves {
+        let hit = intersect_one(scene, from, direction);
+        let Some(hit) = hit else {
+            segments.push(Segment { kind, from, to: None, direction });
+            break;
+        };
+        let (s, material) = surface::<f32>(scene, hit.primitive, (from + direction * hit.t).into());
+        let (point, normal) = (Vec3::from(s.point), Vec3::from(s.normal));
+        segments.push(Segment { kind, from, to: Some(point), direction });
+        let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
+        let grain = spawn::grain::<f32>(s.point, s.reach);
+        for light in &scene.lights {
+            let ray = spawn::shadow::<f32>(light.position.into(), s.point, normal.into(), grain);
+            if ray.cosine > 0.0 {
+                let away = Vec3::from(ray.direction);
+                let blocked = occluded_one(scene, light.position, away, ray.t_max);
+                let kind = SegmentKind::Shadow { blocked };
+                segments.push(Segment { kind, from: point, to: Some(light.position), direction: -away });
+            }
+        }
+        if depth == scene.plan.waves || scene.materials[material as usize].reflectance <= 0.0 {
+            break;
+        }
+        let (o, d) = spawn::reflected::<f32>(Lane3::from(direction), s.point, normal.into(), grain);
+        (from, direction, kind) = (o.into(), d.into(), SegmentKind::Reflection);
+    }
+    segments
+}

@@ -1,0 +1,186 @@
+//! Where the rays of a wave arrived: point, normal and material, packet by packet.
+
+use super::spawn;
+use super::wave::Wave;
+use crate::geometry::{Surface, frame};
+use crate::math::{BATCH, HitBatch, LaneMask, Lanes, Vec3};
+use crate::scene::{Pigment, Scene};
+
+/// The surfaces that a wave's rays hit, column by column.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct Surfaces {
+    /// Hit points, on the surface.
+    pub point: [[f32; BATCH]; 3],
+    /// Unit normals, turned against the rays.
+    pub normal: [[f32; BATCH]; 3],
+    /// The length the spawned rays' offset is proportional to; below zero where nothing was hit.
+    pub grain: [f32; BATCH],
+    /// Diffuse colour times the ray's weight and what the mirror leaves of it.
+    pub color: [[f32; BATCH]; 3],
+    /// Weight of the mirror's ray.
+    pub mirror: [f32; BATCH],
+    /// Highlight strength, weighted as `color`; written only where the plan has highlights, as is the next.
+    pub specular: [f32; BATCH],
+    /// Phong exponent.
+    pub shininess: [f32; BATCH],
+    /// Whether any hit of the wave so far has a highlight.
+    pub glossy: bool,
+}
+
+impl Default for Surfaces {
+    fn default() -> Self {
+        Self {
+            point: [[0.0; BATCH]; 3],
+            normal: [[0.0; BATCH]; 3],
+            grain: [-1.0; BATCH],
+            color: [[0.0; BATCH]; 3],
+            mirror: [0.0; BATCH],
+            specular: [0.0; BATCH],
+            shininess: [1.0; BATCH],
+            glossy: false,
+        }
+    }
+}
+
+/// A packet's shading data while its primitives are gone through.
+#[derive(Clone, Copy)]
+struct Gathered<L> {
+    point: Vec3<L>,
+    normal: Vec3<L>,
+    reach: L,
+    color: Vec3<L>,
+    mirror: L,
+    specular: L,
+    shininess: L,
+    glossy: bool,
+}
+
+impl Surfaces {
+    /// Finds the surfaces of packet `at`, whose hits are `hit`.
+    ///
+    /// Neighbouring rays mostly hit the same primitive, so each primitive in the packet is looked at once, for all
+    /// lanes, and selected where it was hit.
+    #[inline(always)]
+    pub fn find<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, hits: &HitBatch, at: usize, hit: L::Mask) {
+        let direction = Vec3::<L>::load(&wave.rays.direction, at);
+        let p = direction.mul_add(L::load(&hits.t[at..]), Vec3::load(&wave.rays.origin, at));
+        let mut left = hit.bits();
+        let mut all: Option<Gathered<L>> = None;
+        while left != 0 {
+            let id = hits.primitive[at + left.trailing_zeros() as usize];
+            let same = L::id_mask(&hits.primitive[at..], id);
+            left &= !same.bits();
+            let one = gather(scene, id, p);
+            all = Some(all.map_or(one, |others| one.select(same, others)));
+        }
+        let Some(g) = all else {
+            L::splat(-1.0).store(&mut self.grain[at..]);
+            return;
+        };
+        let normal = (-g.normal).select(g.normal.dot(direction).gt(L::zero()), g.normal);
+        g.point.store(&mut self.point, at);
+        normal.store(&mut self.normal, at);
+        spawn::grain(g.point, g.reach).select(hit, L::splat(-1.0)).store(&mut self.grain[at..]);
+        let weight = L::load(&wave.weight[at..]);
+        let own = weight * (L::splat(1.0) - g.mirror);
+        (g.color * own).store(&mut self.color, at);
+        (weight * g.mirror).store(&mut self.mirror[at..]);
+        if scene.plan.highlights {
+            self.glossy |= g.glossy;
+            (g.specular * own).store(&mut self.specular[at..]);
+            g.shininess.store(&mut self.shininess[at..]);
+        }
+    }
+}
+
+impl<L: Lanes> Gathered<L> {
+    #[inline(always)]
+    fn select(self, mask: L::Mask, other: Self) -> Self {
+        Self {
+            point: self.point.select(mask, other.point),
+            normal: self.normal.select(mask, other.normal),
+            reach: self.reach.select(mask, other.reach),
+            color: self.color.select(mask, other.color),
+            mirror: self.mirror.select(mask, other.mirror),
+            specular: self.specular.select(mask, other.specular),
+            shininess: self.shininess.select(mask, other.shininess),
+            glossy: self.glossy | other.glossy,
+        }
+    }
+}
+
+/// Primitive `id`'s surface and material at the points `p`.
+#[inline(always)]
+fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
+    let (surface, material) = surface(scene, id, p);
+    let m = &scene.materials[material as usize];
+    let color = match m.pigment {
+        Pigment::Color(color) => Vec3::splat(color),
+        Pigment::Checker { colors, size } => {
+            let odd = odd_cell(scene, id, &surface, 1.0 / size);
+            Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
+        }
+    };
+    Gathered {
+        point: surface.point,
+        normal: surface.normal,
+        reach: L::splat(surface.reach),
+        color,
+        mirror: L::splat(m.reflectance),
+        specular: L::splat(m.specular),
+        shininess: L::splat(m.shininess),
+        glossy: m.specular > 0.0,
+    }
+}
+
+/// Primitive `id`'s surface near the points `p`, and its material.
+#[inline(always)]
+pub fn surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32) {
+    let (first_sphere, first_triangle) = (scene.first_sphere(), scene.first_triangle());
+    if id >= first_triangle {
+        let i = (id - first_triangle) as usize;
+        (scene.triangles.surface(i, p), scene.triangles.material[i])
+    } else if id >= first_sphere {
+        let i = (id - first_sphere) as usize;
+        (scene.spheres.surface(i, p), scene.spheres.material[i])
+    } else {
+        (scene.planes.surface(id as usize, p), scene.planes.material[id as usize])
+    }
+}
+
+/// Where the checkerboard shows its second colour; see [`Pigment::Checker`].
+#[inline(always)]
+fn odd_cell<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, per_size: f32) -> L::Mask {
+    let per_size = L::splat(per_size);
+    let cells = if (scene.first_sphere()..scene.first_triangle()).contains(&id) {
+        let center = Vec3::splat(scene.spheres.center((id - scene.first_sphere()) as usize));
+        let local = (surface.point - center) * per_size;
+        local.x.floor() + local.y.floor() + local.z.floor()
+    } else {
+        let [t, b] = frame(flat_normal(scene, id)).map(Vec3::splat);
+        (surface.point.dot(t) * per_size).floor() + (surface.point.dot(b) * per_size).floor()
+    };
+    let half = cells * L::splat(0.5);
+    !half.floor().eq(half)
+}
+
+/// The unit normal of a plane or triangle.
+fn flat_normal(scene: &Scene, id: u32) -> glam::Vec3 {
+    if id < scene.first_sphere() {
+        scene.planes.normal(id as usize).as_dvec3().normalize().as_vec3()
+    } else {
+        let [_, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
+        e1.cross(e2).normalize()
+    }
+}
+
+/// The unit normal where one ray hit a primitive, turned against the ray; zero for a ray that hit nothing.
+pub(crate) fn facing_normal(scene: &Scene, id: u32, origin: glam::Vec3, direction: glam::Vec3, t: f32) -> [f32; 3] {
+    if id == crate::math::NONE {
+        return [0.0; 3];
+    }
+    let (surface, _) = surface::<f32>(scene, id, (origin + direction * t).into());
+    let normal = glam::Vec3::from(surface.normal);
+    (if normal.dot(direction) > 0.0 { -normal } else { normal }).to_array()
+}

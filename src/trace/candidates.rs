@@ -1,0 +1,190 @@
+//! The primitives that a batch of rays may meet, gathered into records that lie one after another.
+
+use super::bounds::Bounds;
+use super::packets::Seen;
+use crate::geometry::plane::SeenPlane;
+use crate::geometry::sphere::SeenSphere;
+use crate::geometry::triangle::SeenTriangle;
+use crate::math::{LaneMask, Lanes, Vec3};
+use crate::scene::Scene;
+
+/// A primitive's record and its id.
+pub type Record<T> = (T, u32);
+
+/// A sphere as stored: for rays that do not share their origin.
+#[derive(Clone, Copy, Debug)]
+pub struct SphereRecord {
+    center: Vec3<f32>,
+    radius: f32,
+}
+
+/// A triangle as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleRecord {
+    v0: Vec3<f32>,
+    e1: Vec3<f32>,
+    e2: Vec3<f32>,
+}
+
+/// A plane as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneRecord {
+    normal: Vec3<f32>,
+    distance: f32,
+}
+
+/// Room for the candidates of a batch, kept between batches; one a thread.
+#[derive(Clone, Debug, Default)]
+pub struct Candidates {
+    shared: Lists<SeenPlane<f32>, SeenSphere<f32>, SeenTriangle<f32>>,
+    apart: Lists<PlaneRecord, SphereRecord, TriangleRecord>,
+}
+
+/// Candidates by kind; ids rise through planes, spheres, triangles.
+#[derive(Clone, Debug)]
+pub struct Lists<P, S, T> {
+    /// Planes.
+    pub planes: Vec<Record<P>>,
+    /// Spheres.
+    pub spheres: Vec<Record<S>>,
+    /// Triangles.
+    pub triangles: Vec<Record<T>>,
+}
+
+impl<P, S, T> Default for Lists<P, S, T> {
+    fn default() -> Self {
+        Self { planes: Vec::new(), spheres: Vec::new(), triangles: Vec::new() }
+    }
+}
+
+/// Candidates of a batch whose rays share their origin, and of one whose rays do not.
+pub enum View<'a> {
+    /// Origin-only terms are done.
+    Shared(&'a Lists<SeenPlane<f32>, SeenSphere<f32>, SeenTriangle<f32>>),
+    /// As stored.
+    Apart(&'a Lists<PlaneRecord, SphereRecord, TriangleRecord>),
+}
+
+impl Candidates {
+    /// Gathers what the batch with these bounds may meet.
+    #[inline(always)]
+    pub fn gather<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> View<'_> {
+        if bounds.shared() {
+            let o = bounds.origin;
+            self.shared.fill::<L>(
+                scene,
+                bounds,
+                |i| scene.planes.seen(i, o),
+                |i| scene.spheres.seen(i, o),
+                |i| scene.triangles.seen(i, o),
+            );
+            View::Shared(&self.shared)
+        } else {
+            self.apart.fill::<L>(
+                scene,
+                bounds,
+                |i| PlaneRecord { normal: scene.planes.normal(i).into(), distance: scene.planes.distance[i] },
+                |i| SphereRecord { center: scene.spheres.center(i).into(), radius: scene.spheres.radius[i] },
+                |i| {
+                    let [v0, e1, e2] = scene.triangles.corner_and_edges(i).map(Vec3::from);
+                    TriangleRecord { v0, e1, e2 }
+                },
+            );
+            View::Apart(&self.apart)
+        }
+    }
+}
+
+impl<P, S, T> Lists<P, S, T> {
+    #[inline(always)]
+    fn fill<L: Lanes>(
+        &mut self,
+        scene: &Scene,
+        bounds: &Bounds,
+        plane: impl Fn(usize) -> P,
+        sphere: impl Fn(usize) -> S,
+        triangle: impl Fn(usize) -> T,
+    ) {
+        self.planes.clear();
+        self.spheres.clear();
+        self.triangles.clear();
+        self.planes.extend((0..scene.planes.len()).map(|i| (plane(i), i as u32)));
+        let first = scene.first_sphere();
+        match &bounds.cone {
+            Some(cone) => {
+                let origin = Vec3::new(L::splat(bounds.origin.x), L::splat(bounds.origin.y), L::splat(bounds.origin.z));
+                let [x, y, z] = &scene.spheres.center;
+                let count = scene.spheres.len();
+                let whole = count - count % L::WIDTH;
+                for at in (0..whole).step_by(L::WIDTH) {
+                    let center = Vec3::new(L::load(&x[at..]), L::load(&y[at..]), L::load(&z[at..]));
+                    let radius = L::load(&scene.spheres.radius[at..]) + L::splat(bounds.spread);
+                    let mut met = (!cone.misses(center - origin, radius)).bits();
+                    while met != 0 {
+                        let i = at + met.trailing_zeros() as usize;
+                        self.spheres.push((sphere(i), first + i as u32));
+                        met &= met - 1;
+                    }
+                }
+                for i in whole..count {
+                    let f = Vec3::from(scene.spheres.center(i)) - bounds.origin;
+                    if !cone.misses::<f32>(f, scene.spheres.radius[i] + bounds.spread) {
+                        self.spheres.push((sphere(i), first + i as u32));
+                    }
+                }
+            }
+            None => self.spheres.extend((0..scene.spheres.len()).map(|i| (sphere(i), first + i as u32))),
+        }
+        let first = scene.first_triangle();
+        self.triangles.extend((0..scene.triangles.len()).map(|i| (triangle(i), first + i as u32)));
+    }
+}
+
+impl<L: Lanes> Seen<L> for SeenPlane<f32> {
+    type As = SeenPlane<L>;
+    #[inline(always)]
+    fn from(&self, _origin: Vec3<L>) -> SeenPlane<L> {
+        self.splat()
+    }
+}
+
+impl<L: Lanes> Seen<L> for SeenSphere<f32> {
+    type As = SeenSphere<L>;
+    #[inline(always)]
+    fn from(&self, _origin: Vec3<L>) -> SeenSphere<L> {
+        self.splat()
+    }
+}
+
+impl<L: Lanes> Seen<L> for SeenTriangle<f32> {
+    type As = SeenTriangle<L>;
+    #[inline(always)]
+    fn from(&self, _origin: Vec3<L>) -> SeenTriangle<L> {
+        self.splat()
+    }
+}
+
+impl<L: Lanes> Seen<L> for PlaneRecord {
+    type As = SeenPlane<L>;
+    #[inline(always)]
+    fn from(&self, origin: Vec3<L>) -> SeenPlane<L> {
+        SeenPlane::new(Vec3::splat(self.normal.into()), L::splat(self.distance), origin)
+    }
+}
+
+impl<L: Lanes> Seen<L> for SphereRecord {
+    type As = SeenSphere<L>;
+    #[inline(always)]
+    fn from(&self, origin: Vec3<L>) -> SeenSphere<L> {
+        SeenSphere::new(Vec3::splat(self.center.into()), L::splat(self.radius), origin)
+    }
+}
+
+impl<L: Lanes> Seen<L> for TriangleRecord {
+    type As = SeenTriangle<L>;
+    #[inline(always)]
+    fn from(&self, origin: Vec3<L>) -> SeenTriangle<L> {
+        let [v0, e1, e2] = [self.v0, self.e1, self.e2].map(|v| Vec3::splat(v.into()));
+        SeenTriangle::new(v0, e1, e2, origin)
+    }
+}

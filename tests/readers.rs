@@ -1,0 +1,404 @@
+//! The readers from outside: every fault gives its exact line, and no content of any file makes them panic.
+
+use std::{fs, path::Path};
+
+use glam::Vec3;
+use proptest::prelude::*;
+use raypacket::scene::{self, Description, Pigment};
+
+fn parse(text: &str) -> Result<Description, String> {
+    scene::parse(text, Path::new("s.toml")).map_err(|error| error.to_string())
+}
+
+#[track_caller]
+fn fault(text: &str, message: &str) {
+    assert_eq!(parse(text).expect_err("the fault must be found"), message, "{text}");
+}
+
+#[test]
+fn an_empty_file_is_the_default_scene() {
+    let expected = Description { name: "s".into(), ..Description::default() };
+    assert_eq!(parse("").unwrap(), expected);
+}
+
+#[test]
+fn every_key_is_read() {
+    let text = r#"
+        camera = { eye = [1, 2, 3], look_at = [4, 5.5, 6], up = [0, 0, 1], fov = 70 }
+        settings = { max_depth = 3, attenuation = false, ambient = [0.5, 0, 0] }
+        sky.color = [0, 0, 1]
+        light = [{ position = [7, 8, 9], power = [10, 11, 12] }]
+        [materials.a]
+        checker = { colors = [[1, 1, 1], [0, 0, 0]], size = 2 }
+        [materials.b]
+        color = [0.1, 0.2, 0.3]
+        reflectance = 1
+        specular = 0.25
+        shininess = 9
+        [[plane]]
+        normal = [0, 2, 0]
+        distance = -1
+        material = "b"
+        [[sphere]]
+        center = [1, 0, 0]
+        radius = 3
+        material = "a"
+        [[sphere]]
+        center = [0, 1, 0]
+        radius = 0.5
+    "#;
+    let d = parse(text).unwrap();
+    assert_eq!((d.camera.eye, d.camera.look_at), (Vec3::new(1.0, 2.0, 3.0), Vec3::new(4.0, 5.5, 6.0)));
+    assert_eq!((d.camera.up, d.camera.fov), (Vec3::Z, 70.0));
+    assert_eq!((d.settings.max_depth, d.settings.attenuation, d.settings.ambient), (3, false, Vec3::X * 0.5));
+    assert_eq!((d.sky.color, d.lights[0].position), (Vec3::Z, Vec3::new(7.0, 8.0, 9.0)));
+    assert_eq!(d.lights[0].power, Vec3::new(10.0, 11.0, 12.0));
+    assert_eq!(d.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(), ["a", "b", "default"]);
+    let [a, b, default] = &d.materials[..] else { panic!("three materials") };
+    assert_eq!(a.pigment, Pigment::Checker { colors: [Vec3::ONE, Vec3::ZERO], size: 2.0 });
+    assert_eq!(b.pigment, Pigment::Color(Vec3::new(0.1, 0.2, 0.3)));
+    assert_eq!((b.reflectance, b.specular, b.shininess), (1.0, 0.25, 9.0));
+    assert_eq!(default.pigment, Pigment::Color(Vec3::splat(0.8)));
+    assert_eq!((default.reflectance, default.specular, default.shininess), (0.0, 0.0, 50.0));
+    assert_eq!((d.planes[0].normal, d.planes[0].distance, d.planes[0].material), (Vec3::Y * 2.0, -1.0, 1));
+    assert_eq!((d.spheres[0].radius, d.spheres[0].material, d.spheres[1].material), (3.0, 0, 2));
+}
+
+#[test]
+fn a_file_may_define_the_default_material() {
+    let d = parse("[materials.default]\ncolor = [1, 0, 0]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1").unwrap();
+    assert_eq!((d.materials.len(), &d.materials[0].pigment), (1, &Pigment::Color(Vec3::X)));
+}
+
+#[test]
+fn syntax_faults() {
+    fault("[camera]\nfov = = 3", "s.toml:2: fov: invalid TOML: extra `=`, expected nothing");
+    fault("a = \"x", "s.toml:1: a: invalid TOML: invalid basic string, expected `\"`");
+    fault("[camera\nfov = 3", "s.toml:1: [camera: invalid TOML: unclosed table, expected `]`");
+    fault("[camera]\nfov = 3\nfov = 4", "s.toml:3: fov: invalid TOML: duplicate key");
+    fault("[camera]\n[camera]", "s.toml:2: [camera]: invalid TOML: duplicate key");
+    fault("\nx", "s.toml:2: x: invalid TOML: key with no value, expected `=`");
+    fault(
+        &format!("x = {}", "[".repeat(100_000)),
+        "s.toml:1: x: invalid TOML: cannot recurse further; max recursion depth met",
+    );
+    fault(
+        &"a.".repeat(100_000),
+        "s.toml:1: a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.: invalid TOML: key with no value, expected `=`",
+    );
+    fault(
+        &format!("{}a = 1", "a.".repeat(100_000)),
+        "s.toml:1: a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.: invalid TOML: recursion limit",
+    );
+    fault(
+        &format!("[{}a]", "a.".repeat(100_000)),
+        "s.toml:1: [a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a: invalid TOML: recursion limit",
+    );
+    fault(
+        &format!("x = {}", "{a=".repeat(100_000)),
+        "s.toml:1: x: invalid TOML: cannot recurse further; max recursion depth met",
+    );
+}
+
+#[test]
+fn unknown_keys() {
+    fault(
+        "colour = 3",
+        "s.toml:1: colour: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `mesh`",
+    );
+    fault(
+        "[camera]\nfov = 3\nzoom = 2",
+        "s.toml:3: camera.zoom: unknown key, expected one of `eye`, `look_at`, `up`, `fov`",
+    );
+    fault(
+        "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nrad = 1",
+        "s.toml:7: sphere[1].rad: unknown key, expected one of `center`, `radius`, `material`",
+    );
+    fault(
+        "[[triangle]]\nvertices = []",
+        "s.toml:1: triangle: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `mesh`",
+    );
+    fault(
+        "[materials.floor]\nior = 1",
+        "s.toml:2: materials.floor.ior: unknown key, expected one of `color`, `checker`, `reflectance`, `specular`, `shininess`",
+    );
+    fault(
+        "[materials.floor.checker]\nior = 1",
+        "s.toml:2: materials.floor.checker.ior: unknown key, expected `colors` or `size`",
+    );
+    fault(
+        "\"a\\nb\" = 1",
+        "s.toml:1: \"a\\nb\": unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `mesh`",
+    );
+    fault("[sky]\nimage = \"x.hdr\"", "s.toml:2: sky.image: unknown key, expected `color`");
+}
+
+#[test]
+fn missing_keys() {
+    fault("[[sphere]]\nradius = 1\n\n[[sphere]]\ncenter = [0, 0, 0]", "s.toml:1: sphere[0].center: missing");
+    fault("sphere = [\n {},\n]", "s.toml:2: sphere[0].center: missing");
+    fault("\n[[light]]\nposition = [0, 0, 0]", "s.toml:2: light[0].power: missing");
+    fault("[materials.\"my floor\".checker]\nsize = 1", "s.toml:1: materials.\"my floor\".checker.colors: missing");
+    fault("\n[[mesh]]", "s.toml:2: mesh[0].file: missing");
+}
+
+#[test]
+fn wrong_types() {
+    fault("[camera]\nfov = \"wide\"", "s.toml:2: camera.fov: invalid type: string \"wide\", expected a number");
+    fault("[camera]\neye = [1, 2]", "s.toml:2: camera.eye: invalid length 2, expected an array of 3");
+    fault("[camera]\neye = [1, 2, 3, 4]", "s.toml:2: camera.eye: invalid length 4, expected an array of 3");
+    fault(
+        "[camera]\neye = [\n1,\ntrue,\n3]",
+        "s.toml:4: camera.eye[1]: invalid type: boolean `true`, expected a number",
+    );
+    fault("[camera]\neye = 1", "s.toml:2: camera.eye: invalid type: integer `1`, expected an array of 3");
+    fault(
+        "camera = [[0, 0, 0], [0, 0, 1], [0, 1, 0], 60]",
+        "s.toml:1: camera: invalid type: sequence, expected a table",
+    );
+    fault("camera = 1", "s.toml:1: camera: invalid type: integer `1`, expected a table");
+    fault("[sphere]\nradius = 1", "s.toml:1: sphere: invalid type: map, expected an array");
+    fault("sphere = [1]", "s.toml:1: sphere[0]: invalid type: integer `1`, expected a table");
+    fault(
+        "settings.max_depth = -1",
+        "s.toml:1: settings.max_depth: invalid value: integer `-1`, expected a whole number",
+    );
+    fault(
+        "settings.max_depth = 2.5",
+        "s.toml:1: settings.max_depth: invalid type: floating point `2.5`, expected a whole number",
+    );
+    fault(
+        "settings.max_depth = 99999999999",
+        "s.toml:1: settings.max_depth: invalid value: integer `99999999999`, expected a whole number",
+    );
+    fault("settings.attenuation = 1", "s.toml:1: settings.attenuation: invalid type: integer `1`, expected a boolean");
+    fault(
+        "camera.fov = 99999999999999999999999999999999999999999999999999999",
+        "s.toml:1: camera.fov: integer number overflowed",
+    );
+    fault(
+        "camera.fov = 99999999999999999999",
+        "s.toml:1: camera.fov: invalid type: integer `99999999999999999999` as i128, expected a number",
+    );
+    fault("camera.fov = 1979-05-27", "s.toml:1: camera.fov: invalid type: map, expected a number");
+    fault("materials = 1", "s.toml:1: materials: invalid type: integer `1`, expected a table");
+    fault("materials.a = 1", "s.toml:1: materials.a: invalid type: integer `1`, expected a table");
+    fault(
+        "materials.a.checker = { colors = [[1, 1, 1]], size = 1 }",
+        "s.toml:1: materials.a.checker.colors: invalid length 1, expected an array of 2",
+    );
+    fault(
+        "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 7",
+        "s.toml:4: sphere[0].material: invalid type: integer `7`, expected a string",
+    );
+}
+
+#[test]
+fn values_out_of_range() {
+    fault(
+        "\n\n[camera]\neye = [1, 2, 3]\nlook_at = [1, 2, 3]",
+        "s.toml:5: camera.look_at: must differ from camera.eye",
+    );
+    fault("[camera]\neye = [0, 1, 0]", "s.toml:1: camera.look_at: must differ from camera.eye");
+    fault("[camera]\nup = [0, 0, 0]", "s.toml:2: camera.up: must not be zero");
+    fault("[camera]\nfov = 180", "s.toml:2: camera.fov: must be above 0 and below 180, got 180");
+    fault("[camera]\neye = [0, nan, 0]", "s.toml:2: camera.eye: must be finite and within ±1e18, got [0, NaN, 0]");
+    fault("[camera]\neye = [0, 1e60, 0]", "s.toml:2: camera.eye: must be finite and within ±1e18, got [0, inf, 0]");
+    fault("[camera]\neye = [0, 1e999, 0]", "s.toml:2: camera.eye[1]: floating-point number overflowed");
+    fault("settings.max_depth = 65", "s.toml:1: settings.max_depth: must be 1 to 64, got 65");
+    fault("[sky]\ncolor = [0, 0, -1]", "s.toml:2: sky.color: must be finite and 0 or more, got [0, 0, -1]");
+    fault(
+        "[[light]]\nposition = [0, 0, 0]\npower = [0, 0, -1]",
+        "s.toml:3: light[0].power: must be finite and 0 or more, got [0, 0, -1]",
+    );
+    fault(
+        "[[light]]\nposition = [0, 0, inf]\npower = [0, 0, 1]",
+        "s.toml:2: light[0].position: must be finite and within ±1e18, got [0, 0, inf]",
+    );
+    fault("\n[materials.a]\nreflectance = 1.01", "s.toml:3: materials.a.reflectance: must be 0 to 1, got 1.01");
+    fault(
+        "[materials.\"my floor\"]\nchecker = { colors = [[1, 1, 1], [0, 0, 0]], size = 0 }",
+        "s.toml:2: materials.\"my floor\".checker.size: must be above 0, got 0",
+    );
+    fault(
+        "[materials.a]\ncolor = [1, 1, 1]\nchecker = { colors = [[1, 1, 1], [0, 0, 0]], size = 1 }",
+        "s.toml:3: materials.a.checker: either color or checker, not both",
+    );
+    fault(
+        "[materials.a]\ncolor = [1, 1, -1]",
+        "s.toml:2: materials.a.color: must be finite and 0 or more, got [1, 1, -1]",
+    );
+    fault("[[plane]]\nnormal = [0, 0, 0]\ndistance = 1", "s.toml:2: plane[0].normal: must not be zero");
+    fault(
+        "sphere = [\n { center = [0, 0, 0], radius = 1 },\n { center = [0, 0, 0], radius = -1 },\n]",
+        "s.toml:3: sphere[1].radius: must be above 0, got -1",
+    );
+    fault(
+        "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 0",
+        "s.toml:6: sphere[1].radius: must be above 0, got 0",
+    );
+}
+
+#[test]
+fn materials_that_do_not_exist() {
+    let scene = |name: &str| {
+        format!(
+            "[materials.floor]\n[materials.gold]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"{name}\""
+        )
+    };
+    fault(&scene("glod"), "s.toml:6: sphere[0].material: no material \"glod\", did you mean \"gold\"?");
+    fault(&scene("silver"), "s.toml:6: sphere[0].material: no material \"silver\"");
+    fault(&scene("a\\nb"), "s.toml:6: sphere[0].material: no material \"a\\nb\"");
+    let long = parse(&scene(&"x".repeat(5000))).unwrap_err();
+    assert!(long.ends_with("x…") && long.len() < 400, "{long}");
+    // A name full of dots must not make the search for its line long.
+    let dots = format!("[materials.\"{}\"]\nreflectance = 2", "a.".repeat(100_000));
+    assert!(parse(&dots).unwrap_err().starts_with("s.toml:2: materials.\"a.a."));
+}
+
+/// A folder with the given files, which goes away with the value.
+fn folder(files: &[(&str, &[u8])]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        fs::write(folder.path().join(name), content).unwrap();
+    }
+    folder
+}
+
+/// What reading the folder's `s.toml` says, with the folder's own path left out.
+fn read(folder: &tempfile::TempDir) -> Result<Description, String> {
+    let result = scene::read(&folder.path().join("s.toml"));
+    result.map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
+}
+
+const MESH: &[u8] = b"[[mesh]]\nfile = \"m.obj\"\n";
+
+#[test]
+fn a_mesh_is_found_beside_its_scene() {
+    let f =
+        folder(&[("s.toml", MESH), ("m.obj", b"v -12 0 -12\nv 12 0 12\nv 12 0 -12\nv -12 0 12\nf 1 2 3\nf 1 4 2\n")]);
+    let scene = read(&f).unwrap();
+    assert_eq!((scene.name.as_str(), scene.primitives()), ("s", 2));
+    let corner = |t: usize, i: usize| scene.meshes[0].positions[scene.meshes[0].triangles[t][i] as usize];
+    assert_eq!([corner(0, 0), corner(0, 1)], [Vec3::new(-12.0, 0.0, -12.0), Vec3::new(12.0, 0.0, 12.0)]);
+    assert_eq!([corner(1, 1), corner(1, 2)], [Vec3::new(-12.0, 0.0, 12.0), Vec3::new(12.0, 0.0, 12.0)]);
+}
+
+#[test]
+fn mesh_faults_name_both_files() {
+    let fault = |obj: &[u8], message: &str| {
+        let f = folder(&[("s.toml", MESH), ("m.obj", obj)]);
+        assert_eq!(read(&f).unwrap_err(), message);
+    };
+    fault(b"v 0 0 0\nf 1 1 2\n", "s.toml:2: mesh[0].file: m.obj:2: f: vertex 2 of 1 does not exist");
+    fault(b"v 0 0 nan\n", "s.toml:2: mesh[0].file: m.obj:1: v: must be finite and within ±1e18, got [0, 0, NaN]");
+    fault(b"\x00\xff\xfe", "s.toml:2: mesh[0].file: m.obj: no faces");
+    let missing = read(&folder(&[("s.toml", MESH)])).unwrap_err();
+    assert_eq!(missing, "s.toml:2: mesh[0].file: m.obj: No such file or directory (os error 2)");
+    let itself = read(&folder(&[("s.toml", b"mesh = [{ file = \".\" }]")])).unwrap_err();
+    assert!(itself.starts_with("s.toml:1: mesh[0].file: ") && itself.ends_with(": not a file"), "{itself}");
+    let nul = read(&folder(&[("s.toml", br#"mesh = [{ file = "a\u0000\nb" }]"#)])).unwrap_err();
+    assert_eq!(nul, "s.toml:1: mesh[0].file: a\\u{0}\\nb: file name contained an unexpected NUL byte");
+}
+
+#[test]
+fn mesh_files_share_one_limit() {
+    let f = folder(&[("s.toml", b"[[mesh]]\nfile = \"a.obj\"\n[[mesh]]\nfile = \"b.obj\"\n"), ("b.obj", b"")]);
+    fs::write(f.path().join("a.obj"), "v 0 0 0\nf 1 1 1\n").unwrap();
+    fs::File::options().write(true).open(f.path().join("b.obj")).unwrap().set_len(scene::MAX_OBJ_BYTES).unwrap();
+    assert_eq!(read(&f).unwrap_err(), "s.toml:4: mesh[1].file: b.obj: longer than 268435440 bytes");
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    assert_eq!(read(&folder(&[])).unwrap_err(), "s.toml: No such file or directory (os error 2)");
+    let not_text = read(&folder(&[("s.toml", b"[sky]\ncolor = \"\xff\"\n")])).unwrap_err();
+    assert_eq!(not_text, "s.toml:2: color: not UTF-8 text");
+    let f = folder(&[("s.toml", b"")]);
+    fs::File::create(f.path().join("s.toml")).unwrap().set_len(scene::MAX_TOML_BYTES + 1).unwrap();
+    assert_eq!(read(&f).unwrap_err(), "s.toml: longer than 16777216 bytes");
+    let error = scene::parse("x", Path::new("a\nb.toml")).unwrap_err();
+    assert_eq!(error.to_string(), "a\\nb.toml:1: x: invalid TOML: key with no value, expected `=`");
+}
+
+fn one_line(result: Result<Description, String>) {
+    if let Err(message) = result {
+        assert!(!message.chars().any(char::is_control) && !message.is_empty(), "{message:?}");
+    }
+}
+
+/// The built-in scenes, without most of the flake's spheres.
+fn sources() -> Vec<String> {
+    scene::builtins().iter().map(|b| b.source.lines().take(140).collect::<Vec<_>>().join("\n")).collect()
+}
+
+/// Text spoiled in a few places: bytes left out, and something put there instead.
+fn spoil(text: &str, faults: &[(prop::sample::Index, usize, String)]) -> Vec<u8> {
+    let mut bytes = text.as_bytes().to_vec();
+    for (at, gap, insert) in faults {
+        let start = at.index(bytes.len() + 1);
+        let end = (start + gap).min(bytes.len());
+        bytes.splice(start..end, insert.bytes());
+    }
+    bytes
+}
+
+fn faults() -> impl Strategy<Value = Vec<(prop::sample::Index, usize, String)>> {
+    let bits = prop::sample::select(vec![
+        "",
+        "\n",
+        "-",
+        "1",
+        "nan",
+        "inf",
+        "1e60",
+        "[",
+        "]",
+        "{",
+        "}",
+        "=",
+        "\"",
+        "'",
+        "\"\"\"",
+        ".",
+        ",",
+        "#",
+        "a",
+        "é",
+        "\0",
+        "\r",
+        "[[sphere]]",
+        "f 1 2 3\n",
+        "f -1 -2 -3\n",
+        "/",
+        "//",
+        "v 1 2 3\n",
+        "99999999999",
+        "\u{2028}",
+    ]);
+    prop::collection::vec((any::<prop::sample::Index>(), 0..6usize, bits.prop_map(str::to_owned)), 1..5)
+}
+
+const OBJ: &str = "# cube\no cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvn 0 0 1\n\
+                   f 1/1/1 2/1/1 3/1/1\nf 1//1 3//1 4//1\ng top\nf -1 -2 -3 1 2\n";
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        one_line(parse(&String::from_utf8_lossy(&bytes)));
+        one_line(read(&folder(&[("s.toml", &bytes)])));
+        one_line(read(&folder(&[("s.toml", MESH), ("m.obj", &bytes)])));
+    }
+
+    #[test]
+    fn spoiled_scenes_are_read_or_refused(which in 0..4usize, faults in faults()) {
+        one_line(parse(&String::from_utf8_lossy(&spoil(&sources()[which], &faults))));
+    }
+
+    #[test]
+    fn spoiled_meshes_are_read_or_refused(faults in faults()) {
+        one_line(read(&folder(&[("s.toml", MESH), ("m.obj", &spoil(OBJ, &faults))])));
+    }
+}
