@@ -302,14 +302,15 @@ macro_rules! wide_lanes {
             fn store_hits(t: Self, id: Self, mask: Self, to_t: &mut [f32], to_id: &mut [u32]) {
                 let ids = cast::<$float, $int>(id);
                 let none = cast::<$int, $float>(ids.simd_eq($int::splat(NONE)));
-                let t = $float::splat(f32::INFINITY).select(none, t);
+                // The types have methods of their own of these names: ours are called by the trait's.
+                let t = Lanes::select($float::splat(f32::INFINITY), none, t);
                 if LaneMask::all(mask) {
                     t.store(to_t);
                     to_id[..$width].copy_from_slice(&ids.to_array());
                 } else {
                     let old: [u32; $width] = to_id[..$width].try_into().expect("the slice has this length");
-                    let ids = id.select(mask, cast::<$int, $float>($int::new(old)));
-                    t.select(mask, $float::load(to_t)).store(to_t);
+                    let ids = Lanes::select(id, mask, cast::<$int, $float>($int::new(old)));
+                    Lanes::select(t, mask, $float::load(to_t)).store(to_t);
                     to_id[..$width].copy_from_slice(&cast::<$float, $int>(ids).to_array());
                 }
             }

@@ -92,14 +92,14 @@ impl Lighting {
         let mut count = 0;
         self.rays.len = wave.rays.len;
         for at in (0..wave.rays.len).step_by(L::WIDTH) {
-            let grain = L::load(&surfaces.grain[at..]);
-            let hit = grain.ge(L::zero());
+            let lift = L::load(&surfaces.lift[at..]);
+            let hit = lift.ge(L::zero());
             if !hit.any() {
                 L::splat(-1.0).store(&mut self.rays.t_max[at..]);
                 continue;
             }
             let normal = Vec3::load(&surfaces.normal, at);
-            let ray = spawn::shadow(position, Vec3::load(&surfaces.point, at), normal, grain);
+            let ray = spawn::shadow(position, Vec3::load(&surfaces.point, at), normal, lift);
             let lit = hit & ray.cosine.gt(L::zero());
             count += u64::from(lit.bits().count_ones());
             position.store(&mut self.rays.origin, at);

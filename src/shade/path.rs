@@ -49,9 +49,9 @@ pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
         let (point, normal) = (Vec3::from(s.point), Vec3::from(s.normal));
         segments.push(Segment { kind, from, to: Some(point), direction });
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
-        let grain = spawn::grain::<f32>(s.point, s.reach);
+        let lift = spawn::lift::<f32>(s.point, s.reach);
         for light in &scene.lights {
-            let ray = spawn::shadow::<f32>(light.position.into(), s.point, normal.into(), grain);
+            let ray = spawn::shadow::<f32>(light.position.into(), s.point, normal.into(), lift);
             if ray.cosine > 0.0 {
                 let away = Vec3::from(ray.direction);
                 let blocked = occluded_one(scene, light.position, away, ray.t_max);
@@ -62,7 +62,7 @@ pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
         if depth == scene.plan.waves || scene.materials[material as usize].reflectance <= 0.0 {
             break;
         }
-        let (o, d) = spawn::reflected::<f32>(Lane3::from(direction), s.point, normal.into(), grain);
+        let (o, d) = spawn::reflected::<f32>(Lane3::from(direction), s.point, normal.into(), lift);
         (from, direction, kind) = (o.into(), d.into(), SegmentKind::Reflection);
     }
     segments

@@ -14,8 +14,8 @@ pub struct Surfaces {
     pub point: [[f32; BATCH]; 3],
     /// Unit normals, turned against the rays.
     pub normal: [[f32; BATCH]; 3],
-    /// The length the spawned rays' offset is proportional to; below zero where nothing was hit.
-    pub grain: [f32; BATCH],
+    /// How far from the surface spawned rays start; below zero where nothing was hit.
+    pub lift: [f32; BATCH],
     /// Diffuse colour times the ray's weight and what the mirror leaves of it.
     pub color: [[f32; BATCH]; 3],
     /// Weight of the mirror's ray.
@@ -33,7 +33,7 @@ impl Default for Surfaces {
         Self {
             point: [[0.0; BATCH]; 3],
             normal: [[0.0; BATCH]; 3],
-            grain: [-1.0; BATCH],
+            lift: [-1.0; BATCH],
             color: [[0.0; BATCH]; 3],
             mirror: [0.0; BATCH],
             specular: [0.0; BATCH],
@@ -75,13 +75,13 @@ impl Surfaces {
             all = Some(all.map_or(one, |others| one.select(same, others)));
         }
         let Some(g) = all else {
-            L::splat(-1.0).store(&mut self.grain[at..]);
+            L::splat(-1.0).store(&mut self.lift[at..]);
             return;
         };
         let normal = (-g.normal).select(g.normal.dot(direction).gt(L::zero()), g.normal);
         g.point.store(&mut self.point, at);
         normal.store(&mut self.normal, at);
-        spawn::grain(g.point, g.reach).select(hit, L::splat(-1.0)).store(&mut self.grain[at..]);
+        spawn::lift(g.point, g.reach).select(hit, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
         let own = weight * (L::splat(1.0) - g.mirror);
         (g.color * own).store(&mut self.color, at);

@@ -170,7 +170,7 @@ fn settle<L: Lanes>(
     in_order: bool,
 ) {
     for at in (0..wave.rays.len).step_by(L::WIDTH) {
-        let hit = L::load(&surfaces.grain[at..]).ge(L::zero());
+        let hit = L::load(&surfaces.lift[at..]).ge(L::zero());
         if !hit.any() {
             continue;
         }
@@ -216,15 +216,15 @@ fn deposit<L: Lanes>(
 fn reflect<L: Lanes>(wave: &Wave, surfaces: &Surfaces, next: &mut Wave) {
     next.rays.clear();
     for at in (0..wave.rays.len).step_by(L::WIDTH) {
-        let grain = L::load(&surfaces.grain[at..]);
+        let lift = L::load(&surfaces.lift[at..]);
         let weight = L::load(&surfaces.mirror[at..]);
-        let goes_on = grain.ge(L::zero()) & weight.gt(L::zero());
+        let goes_on = lift.ge(L::zero()) & weight.gt(L::zero());
         let mut left = goes_on.bits();
         if left == 0 {
             continue;
         }
         let (point, normal) = (Vec3::load(&surfaces.point, at), Vec3::load(&surfaces.normal, at));
-        let (origin, direction) = spawn::reflected(Vec3::load(&wave.rays.direction, at), point, normal, grain);
+        let (origin, direction) = spawn::reflected(Vec3::load(&wave.rays.direction, at), point, normal, lift);
         let (mut o, mut d, mut w) = ([[0.0; 8]; 3], [[0.0; 8]; 3], [0.0; 8]);
         origin.store(&mut o, 0);
         direction.store(&mut d, 0);

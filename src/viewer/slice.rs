@@ -1,0 +1,292 @@
+//! The lecture's 2D view: a horizontal slice of the scene at the eye's height, seen from above, and the light paths of
+//! the screen's middle row, projected onto it.
+
+use super::{
+    draw::Picture,
+    map::{Layout, flat},
+    text,
+};
+use crate::{
+    render::Camera,
+    scene::{Description, Plane, Sphere},
+    shade::{Segment, SegmentKind},
+};
+use glam::{DVec2, DVec3, Vec3};
+
+const BACKGROUND: u32 = 0x12_14_18;
+const OUTLINE: u32 = 0xD8_DC_E4;
+const EYE: u32 = 0xFF_60_60;
+const PRIMARY: u32 = 0xB0_A0_58;
+const HIT: u32 = 0xFF_FF_FF;
+const REFLECTION: u32 = 0x38_A8_D8;
+const SHADOW: u32 = 0x34_68_2C;
+const BLOCKED: u32 = 0x68_2C_34;
+const LIGHT: u32 = 0xFF_E8_80;
+const LEGEND: [(u32, &str); 4] =
+    [(PRIMARY, "primary"), (REFLECTION, "reflection"), (SHADOW, "shadow"), (BLOCKED, "blocked")];
+
+/// What a horizontal plane cuts out of a primitive, in (x, z).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cut {
+    /// Out of a sphere.
+    Circle {
+        /// Its middle.
+        center: DVec2,
+        /// Not negative.
+        radius: f64,
+    },
+    /// Out of a plane: an endless line.
+    Line {
+        /// One of its points.
+        point: DVec2,
+        /// Of any length but zero.
+        direction: DVec2,
+    },
+    /// Out of a triangle.
+    Segment(DVec2, DVec2),
+}
+
+/// Everything that the plane y = `height` cuts.
+pub fn cuts(description: &Description, height: f32) -> impl Iterator<Item = Cut> + '_ {
+    let y = f64::from(height);
+    let planes = description.planes.iter().filter_map(move |plane| cut_plane(plane, y));
+    let spheres = description.spheres.iter().filter_map(move |sphere| cut_sphere(sphere, y));
+    let triangles = description.meshes.iter().flat_map(move |mesh| {
+        mesh.triangles.iter().filter_map(move |triangle| {
+            let corner = |i: usize| mesh.positions.get(triangle[i] as usize).map(|p| p.as_dvec3());
+            cut_triangle([corner(0)?, corner(1)?, corner(2)?], y)
+        })
+    });
+    planes.chain(spheres).chain(triangles)
+}
+
+/// None when the plane is parallel to the slice.
+fn cut_plane(plane: &Plane, y: f64) -> Option<Cut> {
+    let normal = plane.normal.as_dvec3();
+    let across = flat(plane.normal);
+    let (length, offset) = (across.length_squared(), f64::from(plane.distance) + normal.y * y);
+    // A nearly parallel plane is cut far away, where clipping leaves it out.
+    (length > 0.0).then(|| Cut::Line { point: across * (-offset / length), direction: across.perp() })
+}
+
+fn cut_sphere(sphere: &Sphere, y: f64) -> Option<Cut> {
+    let (radius, above) = (f64::from(sphere.radius), (f64::from(sphere.center.y) - y).abs());
+    let squared = (radius - above) * (radius + above);
+    (above <= radius).then(|| Cut::Circle { center: flat(sphere.center), radius: squared.max(0.0).sqrt() })
+}
+
+/// A corner on the slice counts as above it, so that neighbours agree on a shared edge and corner, and a triangle
+/// that lies in the slice is not cut.
+fn cut_triangle(corners: [DVec3; 3], y: f64) -> Option<Cut> {
+    let above = corners.map(|corner| corner.y >= y);
+    // The corner that is alone on its side: both edges that leave it cross the slice.
+    let alone = (0..3).find(|&i| above[i] != above[(i + 1) % 3] && above[i] != above[(i + 2) % 3])?;
+    let crossing = |other: DVec3| {
+        let from = corners[alone];
+        let point = from.lerp(other, (y - from.y) / (other.y - from.y));
+        DVec2::new(point.x, point.z)
+    };
+    Some(Cut::Segment(crossing(corners[(alone + 1) % 3]), crossing(corners[(alone + 2) % 3])))
+}
+
+/// Draws the whole slice: light paths, outlines, lights, the eye and its screen, a scale bar and a legend.
+pub fn draw(picture: &mut Picture, layout: &Layout, description: &Description, camera: &Camera, paths: &[Segment]) {
+    picture.fill(BACKGROUND);
+    draw_paths(picture, layout, paths);
+    for cut in cuts(description, camera.eye.y) {
+        match cut {
+            Cut::Circle { center, radius } => picture.circle(layout.place(center), radius * layout.scale, OUTLINE),
+            Cut::Segment(from, to) => picture.segment(layout.place(from), layout.place(to), OUTLINE),
+            Cut::Line { point, direction } => {
+                let direction = direction.normalize_or_zero();
+                picture.line(layout.place(point), direction, (f64::NEG_INFINITY, f64::INFINITY), OUTLINE);
+            }
+        }
+    }
+    for light in &description.lights {
+        picture.dot(layout.place(flat(light.position)), 2, LIGHT);
+    }
+    draw_eye(picture, layout, camera);
+    draw_scale(picture, layout);
+    draw_legend(picture);
+}
+
+/// The least important first, since later lines cover earlier ones.
+fn draw_paths(picture: &mut Picture, layout: &Layout, paths: &[Segment]) {
+    let order = [
+        (SegmentKind::Shadow { blocked: true }, BLOCKED),
+        (SegmentKind::Shadow { blocked: false }, SHADOW),
+        (SegmentKind::Primary, PRIMARY),
+        (SegmentKind::Reflection, REFLECTION),
+    ];
+    for (kind, color) in order {
+        for segment in paths.iter().filter(|segment| segment.kind == kind) {
+            let from = layout.place(flat(segment.from));
+            match segment.to {
+                Some(to) => picture.segment(from, layout.place(flat(to)), color),
+                None => picture.line(from, flat(segment.direction), (0.0, f64::INFINITY), color),
+            }
+        }
+    }
+    for segment in paths.iter().filter(|segment| segment.kind == SegmentKind::Primary) {
+        if let Some(to) = segment.to {
+            picture.dot(layout.place(flat(to)), 1, HIT);
+        }
+    }
+}
+
+fn draw_eye(picture: &mut Picture, layout: &Layout, camera: &Camera) {
+    let eye = layout.place(flat(camera.eye));
+    let down = (camera.p2 - camera.p0) * 0.5;
+    let place = |point: Vec3| layout.place(flat(point));
+    let (left, right) = (place(camera.p0 + down), place(camera.p1 + down));
+    // Any screen that is the same seen from the eye gives the same rays: one too small or too large to see on the
+    // pane is drawn moved along them.
+    let length = (right - left).length();
+    let limit = (picture.width.min(picture.height) as f64 * 0.25).max(1.0);
+    let scale = length.clamp(limit * 0.25, limit) / length;
+    if scale.is_finite() {
+        picture.segment(eye + (left - eye) * scale, eye + (right - eye) * scale, EYE);
+    }
+    picture.dot(eye, 2, EYE);
+}
+
+fn draw_scale(picture: &mut Picture, layout: &Layout) {
+    let (left, bottom) = (8.0, picture.height as f64 - 8.0);
+    let length = layout.round_length(picture.width as f64 * 0.25);
+    let right = left + length * layout.scale;
+    if length.is_finite() && bottom > 40.0 {
+        for (from, to) in [
+            (DVec2::new(left, bottom), DVec2::new(right, bottom)),
+            (DVec2::new(left, bottom - 3.0), DVec2::new(left, bottom + 3.0)),
+            (DVec2::new(right, bottom - 3.0), DVec2::new(right, bottom + 3.0)),
+        ] {
+            picture.segment(from, to, OUTLINE);
+        }
+        text::write(picture, left as usize, bottom as usize - 21, &length_text(length), OUTLINE);
+    }
+}
+
+fn draw_legend(picture: &mut Picture) {
+    let names: Vec<&str> = LEGEND.iter().map(|(_, name)| *name).collect();
+    text::panel(picture, 0, 0, &[" ".repeat(names.join(" ").len())], 0);
+    let mut x = text::PADDING;
+    for (color, name) in LEGEND {
+        text::write(picture, x, text::PADDING, name, color);
+        x += (name.len() + 1) * text::char_width();
+    }
+}
+
+fn length_text(length: f64) -> String {
+    if (1e-3..1e5).contains(&length) { format!("{length}") } else { format!("{length:.0e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{scene::Mesh, viewer::map::Map};
+
+    fn sphere(y: f32, radius: f32) -> Sphere {
+        Sphere { center: Vec3::new(2.0, y, 3.0), radius, material: 0 }
+    }
+
+    #[test]
+    fn spheres_give_circles() {
+        let center = DVec2::new(2.0, 3.0);
+        assert_eq!(cut_sphere(&sphere(1.0, 2.0), 1.0), Some(Cut::Circle { center, radius: 2.0 }));
+        assert_eq!(cut_sphere(&sphere(4.0, 5.0), 1.0), Some(Cut::Circle { center, radius: 4.0 }));
+        assert_eq!(cut_sphere(&sphere(3.0, 2.0), 1.0), Some(Cut::Circle { center, radius: 0.0 }));
+        assert_eq!(cut_sphere(&sphere(3.1, 2.0), 1.0), None);
+    }
+
+    #[test]
+    fn planes_give_lines_unless_parallel() {
+        let plane = |normal: Vec3, distance: f32| Plane { normal, distance, material: 0 };
+        assert_eq!(cut_plane(&plane(Vec3::Y * 3.0, 1.0), 0.5), None);
+        // 2x + 2y − 6 = 0 at y = 1: x = 2, of any z.
+        let Some(Cut::Line { point, direction }) = cut_plane(&plane(Vec3::new(2.0, 2.0, 0.0), -6.0), 1.0) else {
+            panic!()
+        };
+        assert!(point.distance(DVec2::new(2.0, 0.0)) < 1e-12 && direction.x == 0.0 && direction.y != 0.0);
+    }
+
+    #[test]
+    fn triangles_give_segments() {
+        let corners = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(4.0, 2.0, 0.0), DVec3::new(0.0, 2.0, 8.0)];
+        let expected = [DVec2::new(2.0, 0.0), DVec2::new(0.0, 4.0)];
+        for turn in 0..3 {
+            let mut corners = corners;
+            corners.rotate_left(turn);
+            let Some(Cut::Segment(a, b)) = cut_triangle(corners, 1.0) else { panic!() };
+            assert!([a, b] == expected || [b, a] == expected);
+        }
+        assert_eq!(cut_triangle(corners, 2.5), None);
+        assert_eq!(cut_triangle(corners.map(|p| DVec3::new(p.x, 1.0, p.z)), 1.0), None, "parallel");
+    }
+
+    #[test]
+    fn a_mesh_with_a_bad_index_is_no_panic() {
+        let mesh = Mesh { positions: vec![Vec3::ZERO], triangles: vec![[0, 1, 2]], material: 0 };
+        let description = Description { meshes: vec![mesh], ..Description::default() };
+        assert_eq!(cuts(&description, 0.0).count(), 0);
+    }
+
+    fn drawn(paths: &[Segment], width: usize, height: usize) -> Picture {
+        let description = Description {
+            spheres: vec![sphere(1.0, 1.0), sphere(0.0, 1e6)],
+            planes: vec![Plane { normal: Vec3::X, distance: 3.0, material: 0 }],
+            ..Description::default()
+        };
+        let eye = Vec3::new(0.0, 1.0, 5.0);
+        let corner = |x: f32, y: f32| eye + Vec3::new(x, y, -1.5);
+        let camera = Camera { eye, p0: corner(-1.0, 1.0), p1: corner(1.0, 1.0), p2: corner(-1.0, -1.0) };
+        let mut picture = Picture::new(width, height);
+        draw(&mut picture, &Map::new(&description).layout(width, height), &description, &camera, paths);
+        picture
+    }
+
+    #[test]
+    fn everything_is_drawn_in_its_colour() {
+        let (from, direction) = (Vec3::new(0.0, 1.0, 5.0), Vec3::new(0.0, 0.0, -1.0));
+        let segment = |kind, to: Option<Vec3>, turn: f32| Segment {
+            kind,
+            from,
+            to,
+            direction: (direction + Vec3::X * turn).normalize(),
+        };
+        let paths = [
+            segment(SegmentKind::Primary, Some(Vec3::new(0.5, 0.0, 0.0)), 0.0),
+            segment(SegmentKind::Shadow { blocked: true }, Some(Vec3::new(1.0, 1.0, 0.5)), 0.0),
+            segment(SegmentKind::Shadow { blocked: false }, Some(Vec3::new(-1.0, 1.0, 0.5)), 0.0),
+            segment(SegmentKind::Reflection, None, 0.9),
+        ];
+        let picture = drawn(&paths, 512, 512);
+        for color in [BACKGROUND, OUTLINE, EYE, PRIMARY, HIT, REFLECTION, SHADOW, BLOCKED] {
+            assert!(picture.pixels.contains(&color), "{color:06x}");
+        }
+        // The ray that leaves the scene reaches the pane's edge.
+        assert!((0..512).any(|y| picture.pixels[y * 512 + 511] == REFLECTION));
+    }
+
+    #[test]
+    fn wild_segments_and_odd_sizes_are_no_panic() {
+        let wild = [0.0, 1e30, f32::MAX, f32::INFINITY, f32::NAN];
+        let mut paths = Vec::new();
+        for a in wild {
+            for b in wild {
+                let (from, direction) = (Vec3::new(a, b, a), Vec3::new(b, a, b));
+                for to in [None, Some(Vec3::splat(b))] {
+                    paths.push(Segment { kind: SegmentKind::Primary, from, to, direction });
+                }
+            }
+        }
+        for (width, height) in [(0, 0), (1, 1), (0, 9), (9, 0), (3, 700), (701, 50)] {
+            drawn(&paths, width, height);
+        }
+    }
+
+    #[test]
+    fn lengths_are_short() {
+        assert_eq!([0.005, 20.0, 2e6].map(length_text), ["0.005", "20", "2e6"]);
+    }
+}
