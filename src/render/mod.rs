@@ -1,5 +1,7 @@
 //! From a compiled scene and a camera to an image: tiles in parallel on the caller's rayon pool.
 
+pub mod output;
+
 mod camera;
 mod film;
 mod kernel;

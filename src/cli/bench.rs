@@ -1,0 +1,59 @@
+//! `raypacket bench`: rays a second.
+
+use super::args::{DEFAULT_SCENE, Json, Size, Threads};
+use super::{Failure, input, print};
+use raypacket::measure::bench::{self, BenchError};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Scene files (.toml, .nff, .obj) or built-in scenes
+    #[arg(value_name = "SCENE", default_value = DEFAULT_SCENE)]
+    scenes: Vec<String>,
+    /// The width and height in pixels of the image whose rays are traced
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
+    size: Size,
+    #[command(flatten)]
+    threads: Threads,
+    /// Trace the rays in FILE (eight 32-bit floats a ray) instead; FILE.shadow asks for any hit, others for the nearest
+    #[arg(long, value_name = "FILE")]
+    rays: Option<PathBuf>,
+    /// Write the results as JSON, with - to standard output
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<OsString>,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    if args.rays.is_some() && args.scenes.len() > 1 {
+        return Err(Failure::input("--rays goes with one scene, as its rays are made for one"));
+    }
+    let json = args.json.as_deref().map(Json::new).transpose()?;
+    let scenes = input::load_all(&args.scenes)?;
+    args.threads.start()?;
+    let options = bench::Options { size: [args.size.width, args.size.height], rays: args.rays.clone() };
+    let mut reports = Vec::new();
+    for (name, scene) in args.scenes.iter().zip(&scenes) {
+        let report = bench::run(scene, &options).map_err(|e| failure(name, &e))?;
+        if !matches!(json, Some(Json::Stdout)) {
+            print::line(&report)?;
+        }
+        reports.push(report);
+    }
+    if let Some(json) = &json {
+        print::json(&reports, json)?;
+    }
+    let wrong: Vec<&str> = (args.scenes.iter().zip(&reports)).filter(|(_, r)| !r.valid).map(|(n, _)| &**n).collect();
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::runtime(format!("the answers do not agree with the reference: {}", wrong.join(", "))))
+}
+
+fn failure(scene: &str, error: &BenchError) -> Failure {
+    match error {
+        BenchError::Scene(invalid) => Failure::input(format!("{scene}: {invalid}")),
+        // It names its file.
+        BenchError::Rays(rays) => Failure::input(rays),
+    }
+}

@@ -1,0 +1,127 @@
+//! The command line: parse, call, print; one file for each command.
+//!
+//! Exit status: 0 when all is well; 1 when it could not be done, such as without a display, on a CPU that
+//! lacks what the program was compiled for, or when `verify` or `bench` find a wrong answer; 2 for bad input,
+//! which is found before any work starts and leaves no file behind. Errors are one line on standard error.
+
+mod args;
+mod bench;
+mod info;
+mod input;
+mod print;
+mod progress;
+mod render;
+mod scenes;
+mod verify;
+mod view;
+
+use clap::{Parser, Subcommand};
+use std::io::Write;
+use std::process::ExitCode;
+
+/// A CPU ray tracer that traces SIMD packets and proves its answers against a scalar reference
+#[derive(Parser)]
+#[command(name = "raypacket", version, args_conflicts_with_subcommands = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Without a command: view.
+    #[command(flatten)]
+    view: view::Args,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Fly through a scene in a window (what happens without a command, too)
+    View(view::Args),
+    /// Write a picture of a scene as PNG or EXR
+    Render(render::Args),
+    /// Measure how many rays a second are traced
+    Bench(bench::Args),
+    /// Check every kernel against the scalar reference
+    Verify(verify::Args),
+    /// Tell what a scene holds and how it will be traced
+    Info(info::Args),
+    /// List the built-in scenes
+    Scenes,
+}
+
+/// Why a command ends early: the exit status and one line.
+pub struct Failure {
+    status: u8,
+    message: String,
+}
+
+impl Failure {
+    /// The user's input is at fault: status 2.
+    fn input(message: impl ToString) -> Self {
+        Self { status: 2, message: message.to_string() }
+    }
+
+    /// The input is fine, but it could not be done: status 1.
+    fn runtime(message: impl ToString) -> Self {
+        Self { status: 1, message: message.to_string() }
+    }
+}
+
+/// Parses the arguments and does what they say. Wrong usage ends the program here with status 2.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match cli.command.unwrap_or(Command::View(cli.view)) {
+        Command::View(args) => view::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Bench(args) => bench::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Scenes => scenes::run(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => fail(failure.status, &failure.message),
+    }
+}
+
+/// Prints `raypacket: message` on standard error, always as one line, and gives the status back.
+fn fail(status: u8, message: &str) -> ExitCode {
+    let line = message.lines().map(str::trim).filter(|l| !l.is_empty()).collect::<Vec<_>>().join("; ");
+    // Should standard error be closed, then nobody wants to know.
+    let _ = writeln!(std::io::stderr(), "raypacket: {line}");
+    ExitCode::from(status)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    fn parse(line: &str) -> Result<Cli, clap::Error> {
+        Cli::try_parse_from(line.split_whitespace())
+    }
+
+    #[test]
+    fn clap_finds_the_definition_sound() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn view_needs_no_word() {
+        let cli = parse("raypacket").ok().unwrap();
+        assert!(cli.command.is_none());
+        assert_eq!(cli.view.scene, "classic");
+        let cli = parse("raypacket flake --size 64x32 --kernel x4 --frames 3").ok().unwrap();
+        assert!(cli.command.is_none());
+        assert_eq!((cli.view.scene.as_str(), cli.view.frames), ("flake", Some(3)));
+        let cli = parse("raypacket --size 64x32 my.toml").ok().unwrap();
+        assert_eq!(cli.view.scene, "my.toml");
+        let cli = parse("raypacket view flake --frames 2").ok().unwrap();
+        assert!(matches!(cli.command, Some(Command::View(args)) if args.scene == "flake" && args.frames == Some(2)));
+    }
+
+    #[test]
+    fn commands_are_not_scenes() {
+        assert!(matches!(parse("raypacket scenes").ok().unwrap().command, Some(Command::Scenes)));
+        assert!(parse("raypacket classic render").is_err());
+        assert!(parse("raypacket render").is_err(), "-o is required");
+        assert!(parse("raypacket view -o a.png").is_err());
+    }
+}

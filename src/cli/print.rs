@@ -1,0 +1,31 @@
+//! Standard output, which may be a pipe that nobody reads any more.
+
+use super::Failure;
+use super::args::Json;
+use serde::Serialize;
+use std::fmt::Display;
+use std::io::{self, ErrorKind, Write};
+
+/// Prints a line, or several. A closed pipe is no failure: `raypacket scenes | head -1` has all it asked for.
+pub fn line(text: impl Display) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::runtime(format!("standard output: cannot be written: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes reports as JSON on one line: one as an object, several as an array.
+pub fn json<T: Serialize>(reports: &[T], to: &Json) -> Result<(), Failure> {
+    let text = match reports {
+        [one] => serde_json::to_string(one),
+        many => serde_json::to_string(many),
+    };
+    let text = text.map_err(|e| Failure::runtime(format!("JSON: {e}")))?;
+    match to {
+        Json::Stdout => line(text),
+        Json::File(target) => target.write(|file| writeln!(file, "{text}")).map_err(Failure::runtime),
+    }
+}

@@ -1,0 +1,141 @@
+//! `raypacket render`: a picture into a file.
+
+use super::args::{DEFAULT_SCENE, Size, Threads};
+use super::progress::Progress;
+use super::{Failure, input, print};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use raypacket::files::Target;
+use raypacket::reference;
+use raypacket::render::output::{Aov, Format, write_aov, write_film};
+use raypacket::render::{Camera, Film, Kernel, PrimaryHits, primary_hits, render};
+use raypacket::scene::{Description, Scene};
+use raypacket::trace::NONE;
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// A scene file (.toml, .nff, .obj) or a built-in scene
+    #[arg(default_value = DEFAULT_SCENE)]
+    scene: String,
+    /// The picture: FILE.png (8-bit sRGB) or FILE.exr (linear 32-bit floats)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The picture's width and height in pixels
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
+    size: Size,
+    /// N x N rays a pixel on a regular grid, 1 to 64
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
+    samples: u32,
+    /// How many rays are traced at once, or the slow scalar tracer that all else is checked against
+    #[arg(long, default_value = "x8", value_parser = tracer())]
+    kernel: Tracer,
+    #[command(flatten)]
+    threads: Threads,
+    /// Write what the rays through the pixels' centres hit, instead of colours
+    #[arg(long, value_parser = aov(), conflicts_with = "samples")]
+    aov: Option<Aov>,
+}
+
+/// Who makes the picture.
+#[derive(Clone, Copy, PartialEq)]
+enum Tracer {
+    Packets(Kernel),
+    Reference,
+}
+
+impl Tracer {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Packets(kernel) => kernel.name(),
+            Self::Reference => "reference",
+        }
+    }
+}
+
+fn tracer() -> impl TypedValueParser<Value = Tracer> {
+    let all = [Kernel::X1, Kernel::X4, Kernel::X8].map(Tracer::Packets).into_iter().chain([Tracer::Reference]);
+    let all: Vec<Tracer> = all.collect();
+    PossibleValuesParser::new(all.iter().map(|t| t.name()).collect::<Vec<_>>()).map(move |name| {
+        let found = all.iter().find(|t| t.name() == name);
+        *found.expect("clap lets only the names of tracers through")
+    })
+}
+
+fn aov() -> impl TypedValueParser<Value = Aov> {
+    PossibleValuesParser::new(Aov::ALL.map(Aov::name)).map(|name| {
+        let found = Aov::ALL.into_iter().find(|a| a.name() == name);
+        found.expect("clap lets only the names of AOVs through")
+    })
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    // Whatever may be wrong comes first: a long render whose picture cannot be saved helps nobody.
+    let Some(format) = Format::of(&args.output) else {
+        return Err(Failure::input(format!("{}: a picture is a .png or .exr file", args.output.display())));
+    };
+    let description = input::load(&args.scene)?;
+    let scene = input::compile(&args.scene, &description)?;
+    let target = Target::new(&args.output).map_err(Failure::input)?;
+    let threads = args.threads.start()?;
+
+    let started = Instant::now();
+    let picture = match args.aov {
+        None => Picture::Film(film(args, &description, &scene)),
+        Some(aov) => Picture::Hits(aov, hits(args, &description, &scene)),
+    };
+    let seconds = started.elapsed().as_secs_f64();
+    let saved = match &picture {
+        Picture::Film(film) => write_film(film, format, &target),
+        Picture::Hits(aov, hits) => write_aov(hits, *aov, args.size.width, format, &target),
+    };
+    saved.map_err(Failure::runtime)?;
+    print::line(format_args!(
+        "{}: {}, {} pixels, kernel {}, {threads} thread{}, {seconds:.3} s",
+        args.output.display(),
+        description.name,
+        args.size,
+        args.kernel.name(),
+        if threads == 1 { "" } else { "s" },
+    ))
+}
+
+enum Picture {
+    Film(Film),
+    Hits(Aov, PrimaryHits),
+}
+
+fn film(args: &Args, description: &Description, scene: &Scene) -> Film {
+    let Size { width, height } = args.size;
+    let mut film = Film::new(width, height);
+    match args.kernel {
+        Tracer::Packets(kernel) => {
+            let camera = Camera::new(&description.camera, args.size.aspect());
+            let progress = Progress::new();
+            render(scene, &camera, kernel, args.samples, &mut film, &|share| progress.set(share));
+        }
+        Tracer::Reference => {
+            let radiance = reference::render(description, width, height, args.samples);
+            film.pixels = radiance.into_iter().map(|rgb| rgb.as_vec3().to_array()).collect();
+        }
+    }
+    film
+}
+
+fn hits(args: &Args, description: &Description, scene: &Scene) -> PrimaryHits {
+    let Size { width, height } = args.size;
+    match args.kernel {
+        Tracer::Packets(kernel) => {
+            let camera = Camera::new(&description.camera, args.size.aspect());
+            primary_hits(scene, &camera, kernel, width, height)
+        }
+        Tracer::Reference => {
+            let hits = reference::hits(description, width, height);
+            PrimaryHits {
+                t: hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t as f32)).collect(),
+                primitive: hits.iter().map(|h| h.map_or(NONE, |h| h.primitive)).collect(),
+                normal: hits.iter().map(|h| h.map_or([0.0; 3], |h| h.normal.as_vec3().to_array())).collect(),
+            }
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! `raypacket verify`: every kernel against the reference.
+
+use super::args::{Json, Size};
+use super::{Failure, input, print};
+use raypacket::measure::verify;
+use raypacket::render::Kernel;
+use raypacket::scene;
+use std::ffi::OsString;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Scene files (.toml, .nff, .obj) or built-in scenes [default: all built-in scenes]
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// The width and height in pixels of the image that is compared
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "256x128")]
+    size: Size,
+    /// Write the results as JSON, with - to standard output
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<OsString>,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let json = args.json.as_deref().map(Json::new).transpose()?;
+    let names = if args.scenes.is_empty() {
+        scene::builtins().iter().map(|b| b.name.to_string()).collect()
+    } else {
+        args.scenes.clone()
+    };
+    let scenes = input::load_all(&names)?;
+    let mut reports = Vec::new();
+    for (name, scene) in names.iter().zip(&scenes) {
+        input::check(name, scene)?;
+        let report = verify::verify(scene, &Kernel::ALL, args.size.width, args.size.height);
+        if !matches!(json, Some(Json::Stdout)) {
+            print::line(&report)?;
+        }
+        reports.push(report);
+    }
+    if let Some(json) = &json {
+        print::json(&reports, json)?;
+    }
+    let wrong: Vec<&str> = names.iter().zip(&reports).filter(|(_, r)| !r.pass).map(|(n, _)| &**n).collect();
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::runtime(format!("verify failed: {}", wrong.join(", "))))
+}

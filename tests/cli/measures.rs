@@ -1,0 +1,104 @@
+//! `raypacket bench` and `raypacket verify`, and the JSON that other programs read.
+
+use super::{folder, names, raypacket};
+use serde_json::Value;
+use std::fs;
+
+fn parse(text: &str) -> Value {
+    assert_eq!(text.lines().count(), 1, "one line, and nothing beside it: {text}");
+    serde_json::from_str(text).expect("JSON")
+}
+
+/// Asserts what the design says about one object of `bench --json`.
+#[track_caller]
+fn check_bench(report: &Value, scene: &str, threads: u64) {
+    assert_eq!(report["scene"], scene);
+    assert_eq!(report["size"], serde_json::json!([32, 16]));
+    assert_eq!(report["threads"], threads);
+    assert_eq!(report["isa"], raypacket::math::isa());
+    assert_eq!(report["valid"], true);
+    for result in report["results"].as_array().expect("results") {
+        assert!(["x1", "x4", "x8"].contains(&result["kernel"].as_str().expect("kernel")), "{result}");
+        assert!(result["rays"].is_u64() && result["hits"].is_u64(), "{result}");
+        assert!(result["sum_t"].as_f64().is_some_and(|t| t >= 0.0), "{result}");
+        let (median, best) = (result["mrays_median"].as_f64().unwrap(), result["mrays_best"].as_f64().unwrap());
+        assert!(0.0 < median && median <= best, "{result}");
+    }
+}
+
+fn queries(report: &Value) -> Vec<&str> {
+    let mut queries: Vec<&str> =
+        report["results"].as_array().unwrap().iter().map(|result| result["query"].as_str().unwrap()).collect();
+    queries.dedup();
+    queries
+}
+
+#[test]
+fn bench_as_json() {
+    let folder = folder();
+    let run = raypacket(folder.path(), "bench good.toml --size 32x16 --threads 1 --json -").good();
+    let report = parse(&run.stdout);
+    check_bench(&report, "good", 1);
+    for query in ["primary", "shadow", "reflection", "frame"] {
+        assert!(queries(&report).contains(&query), "no {query}");
+    }
+    let primary = report["results"].as_array().unwrap().iter().find(|r| r["query"] == "primary").unwrap();
+    assert_eq!(primary["rays"], 32 * 16);
+}
+
+#[test]
+fn bench_of_several_scenes_into_a_file() {
+    let folder = folder();
+    let args = "bench good.toml classic --size 32x16 --threads 2 --json a.json";
+    let run = raypacket(folder.path(), args).good();
+    assert!(run.stdout.contains("good") && run.stdout.contains("classic"), "{}", run.stdout);
+    let reports = parse(&fs::read_to_string(folder.path().join("a.json")).unwrap());
+    let reports = reports.as_array().expect("an array, as there are two");
+    assert_eq!(reports.len(), 2);
+    check_bench(&reports[0], "good", 2);
+    check_bench(&reports[1], "classic", 2);
+    assert_eq!(names(folder.path()), ["a.json", "good.toml"]);
+}
+
+#[test]
+fn bench_of_a_ray_file() {
+    let folder = folder();
+    // One ray hits the sphere of `good.toml` at 4, one nothing, one is inactive.
+    let rays: [[f32; 8]; 3] = [
+        [0.0, 1.0, 5.0, 0.0, 0.0, 0.0, -1.0, 1e30],
+        [0.0, 1.0, 5.0, 0.0, 0.0, 0.0, 1.0, 1e30],
+        [0.0, 1.0, 5.0, 0.0, 0.0, 0.0, -1.0, -1.0],
+    ];
+    let bytes: Vec<u8> = rays.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    for (extension, sum) in [("primary", 4.0), ("shadow", 0.0)] {
+        let file = format!("few.{extension}");
+        fs::write(folder.path().join(&file), &bytes).unwrap();
+        let args = format!("bench good.toml --size 32x16 --threads 1 --rays {file} --json -");
+        let report = parse(&raypacket(folder.path(), &args).good().stdout);
+        assert_eq!(queries(&report), [format!("rays:{extension}")]);
+        for result in report["results"].as_array().unwrap() {
+            assert_eq!((&result["rays"], &result["hits"]), (&2.into(), &1.into()), "{result}");
+            assert!((result["sum_t"].as_f64().unwrap() - sum).abs() < 1e-4, "{result}");
+        }
+    }
+}
+
+#[test]
+fn verify_as_json_and_as_text() {
+    let folder = folder();
+    let report = parse(&raypacket(folder.path(), "verify good.toml --size 32x16 --json -").good().stdout);
+    assert_eq!((&report["scene"], &report["pass"]), (&"good".into(), &true.into()));
+    let run = raypacket(folder.path(), "verify good.toml classic --size 32x16").good();
+    assert!(run.stdout.contains("good") && run.stdout.contains("classic"), "{}", run.stdout);
+}
+
+#[test]
+fn verify_takes_all_built_in_scenes() {
+    let folder = folder();
+    let run = raypacket(folder.path(), "verify --size 24x12 --json all.json").good();
+    let reports = parse(&fs::read_to_string(folder.path().join("all.json")).unwrap());
+    let scenes: Vec<&str> = reports.as_array().unwrap().iter().map(|r| r["scene"].as_str().unwrap()).collect();
+    let builtins: Vec<&str> = raypacket::scene::builtins().iter().map(|b| b.name).collect();
+    assert_eq!(scenes, builtins);
+    assert!(builtins.iter().all(|name| run.stdout.contains(name)), "{}", run.stdout);
+}
