@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use super::{Lanes, Vec3 as Lane3};
+
 /// The most rays a batch holds: a tile of 16 × 16 pixels, or any other rays that belong together.
 pub const BATCH: usize = 256;
 
@@ -19,6 +21,9 @@ pub const NONE: u32 = u32::MAX;
 pub struct RayBatch {
     /// Rays at `len` and beyond are inactive; kept so by [`RayBatch::push`] and [`RayBatch::clear`].
     pub len: usize,
+    /// All active rays start where ray 0 does; nothing else of `origin` is read then. Whoever fills a batch mostly
+    /// knows: eye rays and a light's shadow rays do. When false they may still start at one point, only slower.
+    pub common_origin: bool,
     /// Where the rays start, a column a component.
     pub origin: [[f32; BATCH]; 3],
     /// Unit directions.
@@ -33,6 +38,7 @@ impl Default for RayBatch {
     fn default() -> Self {
         Self {
             len: 0,
+            common_origin: false,
             origin: [[0.0; BATCH]; 3],
             direction: [[0.0; BATCH]; 3],
             t_min: [0.0; BATCH],
@@ -58,6 +64,35 @@ impl RayBatch {
         self.t_min[at] = t_min;
         self.t_max[at] = t_max;
         self.len = at + 1;
+        self.common_origin = at == 0 || (self.common_origin && origin == self.first_origin());
+    }
+
+    /// Adds an inactive ray: a place that is passed over. Panics when the batch is full.
+    pub fn push_inactive(&mut self) {
+        let common = self.common_origin || self.len == 0;
+        self.push(self.first_origin(), Vec3::Z, 0.0, -1.0);
+        self.common_origin = common;
+    }
+
+    /// Where the rays of the packet that starts at ray `at` start.
+    #[inline(always)]
+    pub fn origins<L: Lanes>(&self, at: usize) -> Lane3<L> {
+        if self.common_origin { Lane3::splat(self.first_origin()) } else { Lane3::load(&self.origin, at) }
+    }
+
+    /// Where ray 0 starts.
+    #[inline(always)]
+    pub fn first_origin(&self) -> Vec3 {
+        Vec3::new(self.origin[0][0], self.origin[1][0], self.origin[2][0])
+    }
+
+    /// Makes `origin` the start of all rays.
+    #[inline(always)]
+    pub fn set_common_origin(&mut self, origin: Vec3) {
+        for axis in 0..3 {
+            self.origin[axis][0] = origin[axis];
+        }
+        self.common_origin = true;
     }
 
     /// The number of active rays.

@@ -70,7 +70,7 @@ pub fn read(path: &Path) -> Result<Vec<RayBatch>, RayFileError> {
             std::array::from_fn(|i| f32::from_le_bytes(record[4 * i..4 * i + 4].try_into().expect("four bytes")));
         let batch = batches.last_mut().expect("one was just pushed");
         if n[7] < 0.0 {
-            batch.push(Vec3::ZERO, Vec3::Z, 0.0, -1.0);
+            batch.push_inactive();
             continue;
         }
         check(&n).map_err(|problem| RayFileError::Ray { path: path.into(), index, problem })?;

@@ -4,8 +4,9 @@ use crate::math::RayBatch;
 use crate::render::{Camera, Kernel, record};
 use crate::scene::Scene;
 
-/// Batches kept a kind at the most, 8 KiB each; a larger picture is sampled evenly, tile by tile.
-const MOST: usize = 16_384;
+/// Batches kept a kind at the most, of 8 KiB each and 2 KiB for its hits: few enough to stay in the second-level
+/// cache, as the rays of a tile do when a picture is rendered. A larger picture is sampled evenly.
+const MOST: usize = 96;
 
 /// A picture's rays by kind, every batch as the tracer gets it.
 #[derive(Debug, Default)]
@@ -22,11 +23,22 @@ impl Streams {
     /// The rays of a picture of `width` × `height`.
     pub fn of(scene: &Scene, camera: &Camera, width: usize, height: usize) -> Self {
         let tiles = width.div_ceil(crate::render::TILE) * height.div_ceil(crate::render::TILE);
-        let batches_a_tile = scene.plan.waves as usize * scene.lights.len().max(1);
-        let stride = (tiles * batches_a_tile).div_ceil(MOST).max(1);
+        // Odd, so that the tiles do not all lie in a few columns.
+        let stride = tiles.div_ceil(MOST) | 1;
         let mut streams = Self::default();
         record(scene, camera, Kernel::X8, [width, height], stride, &mut streams);
+        for batches in [&mut streams.primary, &mut streams.shadow, &mut streams.reflection] {
+            thin(batches);
+        }
         streams
+    }
+}
+
+/// Keeps [`MOST`] batches, evenly spaced.
+fn thin(batches: &mut Vec<RayBatch>) {
+    let step = batches.len() as f64 / MOST as f64;
+    if step > 1.0 {
+        *batches = (0..MOST).map(|i| batches[(i as f64 * step) as usize].clone()).collect();
     }
 }
 

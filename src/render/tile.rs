@@ -65,14 +65,13 @@ impl Grid {
         let [in_x, in_y] = within.map(L::splat);
         let size = [L::splat(self.width as f32), L::splat(self.height as f32)];
         let [corner, across, down] = [self.camera.corner, self.camera.across, self.camera.down].map(Vec3::splat);
-        let eye = Vec3::<L>::splat(self.camera.eye);
+        rays.set_common_origin(self.camera.eye);
         rays.len = BATCH;
         for at in (0..BATCH).step_by(L::WIDTH) {
             let (x, y) = (x0 + L::load(&OFFSET[0][at..]), y0 + L::load(&OFFSET[1][at..]));
             let (u, v) = ((x + in_x) * L::splat(per_x), (y + in_y) * L::splat(per_y));
             let direction = across.mul_add(u, down.mul_add(v, corner)).normalize();
             let active = x.lt(size[0]) & y.lt(size[1]);
-            eye.store(&mut rays.origin, at);
             direction.store(&mut rays.direction, at);
             L::splat(f32::INFINITY).select(active, L::splat(-1.0)).store(&mut rays.t_max[at..]);
         }
@@ -154,7 +153,7 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
         let (t, id) = (work.shading.hits.t[i], work.shading.hits.primitive[i]);
         let rays = &work.shading.primary.rays;
         let at = |c: &[[f32; BATCH]; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
-        (t, id, facing_normal(scene, id, at(&rays.origin), at(&rays.direction), t))
+        (t, id, facing_normal(scene, id, rays.first_origin(), at(&rays.direction), t))
     });
     PrimaryHits {
         t: hits.iter().map(|h| h.0).collect(),

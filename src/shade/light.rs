@@ -92,6 +92,10 @@ impl Lighting {
         let start = scene.plan.shadows[light];
         let mut count = 0;
         self.rays.len = wave.rays.len;
+        match start {
+            ShadowStart::Light => self.rays.set_common_origin(scene.lights[light].position),
+            ShadowStart::Point => self.rays.common_origin = false,
+        }
         for at in (0..wave.rays.len).step_by(L::WIDTH) {
             let lift = L::load(&surfaces.lift[at..]);
             let hit = lift.ge(L::zero());
@@ -107,7 +111,9 @@ impl Lighting {
             };
             let lit = hit & ray.cosine.gt(L::zero());
             count += u64::from(lit.bits().count_ones());
-            ray.origin.store(&mut self.rays.origin, at);
+            if start == ShadowStart::Point {
+                ray.origin.store(&mut self.rays.origin, at);
+            }
             ray.direction.store(&mut self.rays.direction, at);
             ray.t_max.select(lit, L::splat(-1.0)).store(&mut self.rays.t_max[at..]);
             let e = if scene.settings.attenuation {

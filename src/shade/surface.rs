@@ -64,7 +64,7 @@ impl Surfaces {
     #[inline(always)]
     pub fn find<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, hits: &HitBatch, at: usize, hit: L::Mask) {
         let direction = Vec3::<L>::load(&wave.rays.direction, at);
-        let p = direction.mul_add(L::load(&hits.t[at..]), Vec3::load(&wave.rays.origin, at));
+        let p = direction.mul_add(L::load(&hits.t[at..]), wave.rays.origins(at));
         let mut left = hit.bits();
         let mut all: Option<Gathered<L>> = None;
         while left != 0 {

@@ -1,16 +1,76 @@
-//! What holds for all rays of a batch: a ball around their origins and a cone around their directions.
+//! What holds for all rays of a batch: boxes around their origins and directions, and a ball and a cone around those.
 
+use crate::geometry::{Planes, Triangles};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 
 /// Bounds of the active rays of a batch.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
-    /// Centre of the origins.
-    pub origin: Vec3<f32>,
-    /// Radius of a ball around them; 0 when all rays share one origin.
+    /// A box around the origins.
+    pub origin: Span,
+    /// A box around the directions.
+    pub direction: Span,
+    /// Radius of a ball around the origins; 0 when all rays share one origin.
     pub spread: f32,
     /// The cone that holds all directions, if they are within a half-space with room to spare.
     pub cone: Option<Cone>,
+}
+
+/// Sides of flat primitives.
+impl Bounds {
+    /// Whether no ray of the batch meets plane `i`: all start on one side of it and none turns to the other.
+    #[inline(always)]
+    pub fn miss_plane(&self, planes: &Planes, i: usize) -> bool {
+        let normal = Vec3::from(planes.normal(i));
+        let height = planes.seen(i, self.origin.middle).height;
+        self.turn_away(normal, height, planes.distance[i].abs())
+    }
+
+    /// Whether no ray of the batch meets triangle `i`: all turn away from its plane, or, where they share their
+    /// origin, pass the same edge on the outside.
+    #[inline(always)]
+    pub fn miss_triangle(&self, triangles: &Triangles, i: usize) -> bool {
+        let seen = triangles.seen(i, self.origin.middle);
+        if !self.shared() {
+            let v0 = Vec3::from(triangles.corner_and_edges(i)[0]);
+            return self.turn_away(seen.n, seen.height, 2.0 * v0.max_abs() * seen.n.max_abs());
+        }
+        // With the sign of −T·N, det, u det, v det and (1 − u − v) det must all be at least zero.
+        let s = if seen.height > 0.0 { 1.0 } else { -1.0 };
+        let outside = |edge: Vec3<f32>| self.direction.greatest(edge * s) < 0.0;
+        outside(seen.n) || outside(seen.u) || outside(seen.v) || {
+            // This edge is a difference, which rounds more than the others.
+            let third = seen.n - seen.u - seen.v;
+            let slack = 1e-6 * (seen.n.max_abs() + seen.u.max_abs() + seen.v.max_abs());
+            self.direction.greatest(third * s) < -3.0 * slack
+        }
+    }
+
+    /// Whether all origins lie on one side of a plane and no direction leads to the other, `height` being −(n·o + d)
+    /// for the middle of the origins and `offset` a bound on the size of d.
+    #[inline(always)]
+    fn turn_away(&self, normal: Vec3<f32>, height: f32, offset: f32) -> bool {
+        let Vec3 { x, y, z } = self.origin.half;
+        let spread = (normal.x * x).abs() + (normal.y * y).abs() + (normal.z * z).abs();
+        let size = self.origin.middle.max_abs() * normal.max_abs();
+        let spread = spread * (1.0 + 1e-6) + 1e-6 * (size + offset) * f32::from(!self.shared());
+        if height > spread {
+            self.direction.greatest(normal) < 0.0
+        } else if height < -spread {
+            self.direction.greatest(-normal) < 0.0
+        } else {
+            false
+        }
+    }
+}
+
+/// A box: its middle and half its size.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    /// The middle.
+    pub middle: Vec3<f32>,
+    /// Half the size.
+    pub half: Vec3<f32>,
 }
 
 /// Directions within an angle of an axis.
@@ -38,22 +98,25 @@ impl Bounds {
                 continue;
             }
             any = true;
-            let (o, d) = (Vec3::load(&rays.origin, at), Vec3::load(&rays.direction, at));
-            if active.all() {
-                (o_min, o_max) = (o.min(o_min), o.max(o_max));
-                (d_min, d_max) = (d.min(d_min), d.max(d_max));
-            } else {
-                (o_min, o_max) = (o.min(o_min).select(active, o_min), o.max(o_max).select(active, o_max));
-                (d_min, d_max) = (d.min(d_min).select(active, d_min), d.max(d_max).select(active, d_max));
+            let d = Vec3::load(&rays.direction, at);
+            (d_min, d_max) = widened(d, active, d_min, d_max);
+            if !rays.common_origin {
+                (o_min, o_max) = widened(Vec3::load(&rays.origin, at), active, o_min, o_max);
             }
         }
         if !any {
             return None;
         }
-        let (origin, half) = middle(o_min, o_max);
-        let shared = half.x == 0.0 && half.y == 0.0 && half.z == 0.0;
-        let spread = if shared { 0.0 } else { half.dot(half).sqrt() * (1.0 + 1e-5) };
-        Some(Self { origin, spread, cone: Cone::around(d_min, d_max) })
+        let direction = Span::of(d_min, d_max);
+        let origin = if rays.common_origin {
+            Span { middle: rays.first_origin().into(), half: Vec3 { x: 0.0, y: 0.0, z: 0.0 } }
+        } else {
+            Span::of(o_min, o_max)
+        };
+        let Vec3 { x, y, z } = origin.half;
+        let shared = x == 0.0 && y == 0.0 && z == 0.0;
+        let spread = if shared { 0.0 } else { origin.half.dot(origin.half).sqrt() * (1.0 + 1e-5) };
+        Some(Self { origin, direction, spread, cone: Cone::around(&direction) })
     }
 
     /// Whether all rays share one origin.
@@ -62,28 +125,45 @@ impl Bounds {
     }
 }
 
-/// Middle and half the size of a box given per lane.
+/// A box per lane, widened to hold `v` where `active`.
 #[inline(always)]
-fn middle<L: Lanes>(min: Vec3<L>, max: Vec3<L>) -> (Vec3<f32>, Vec3<f32>) {
-    let least = |v: L| v.fold(Lanes::min);
-    let most = |v: L| v.fold(Lanes::max);
-    let min = Vec3 { x: least(min.x), y: least(min.y), z: least(min.z) };
-    let max = Vec3 { x: most(max.x), y: most(max.y), z: most(max.z) };
-    // Where both ends are equal the middle is exactly that value.
-    let mid = |a: f32, b: f32| if a == b { a } else { 0.5 * a + 0.5 * b };
-    let middle = Vec3 { x: mid(min.x, max.x), y: mid(min.y, max.y), z: mid(min.z, max.z) };
-    // Half the size, counted from the rounded middle, so that the box stays inside.
-    let reach = |a: f32, m: f32, b: f32| f32::max(b - m, m - a);
-    let half =
-        Vec3 { x: reach(min.x, middle.x, max.x), y: reach(min.y, middle.y, max.y), z: reach(min.z, middle.z, max.z) };
-    (middle, half)
+fn widened<L: Lanes>(v: Vec3<L>, active: L::Mask, min: Vec3<L>, max: Vec3<L>) -> (Vec3<L>, Vec3<L>) {
+    let (lower, upper) = (v.min(min), v.max(max));
+    if active.all() { (lower, upper) } else { (lower.select(active, min), upper.select(active, max)) }
+}
+
+impl Span {
+    /// From the ends per lane.
+    #[inline(always)]
+    fn of<L: Lanes>(min: Vec3<L>, max: Vec3<L>) -> Self {
+        let (x, y, z) = (Self::axis(min.x, max.x), Self::axis(min.y, max.y), Self::axis(min.z, max.z));
+        Self { middle: Vec3 { x: x.0, y: y.0, z: z.0 }, half: Vec3 { x: x.1, y: y.1, z: z.1 } }
+    }
+
+    #[inline(always)]
+    fn axis<L: Lanes>(min: L, max: L) -> (f32, f32) {
+        let (min, max) = (min.fold(Lanes::min), max.fold(Lanes::max));
+        // Where both ends are equal the middle is exactly that value.
+        let middle = if min == max { min } else { 0.5 * min + 0.5 * max };
+        // Counted from the rounded middle, so that both ends stay inside.
+        (middle, f32::max(max - middle, middle - min))
+    }
+
+    /// The greatest value of a·p over the box, rounded up; NaN if it is unknown.
+    #[inline(always)]
+    pub fn greatest(&self, a: Vec3<f32>) -> f32 {
+        let Vec3 { x, y, z } = self.middle;
+        let most = a.dot(self.middle) + a.x.abs() * self.half.x + a.y.abs() * self.half.y + a.z.abs() * self.half.z;
+        // A dozen roundings of terms no larger than these.
+        most + 1e-6 * (a.x * x).abs().max((a.y * y).abs()).max((a.z * z).abs()).max(most.abs())
+    }
 }
 
 impl Cone {
     /// Around a box of directions: the ball around the box fills the cone of sine radius / distance.
     #[inline(always)]
-    fn around<L: Lanes>(min: Vec3<L>, max: Vec3<L>) -> Option<Self> {
-        let (axis, half) = middle(min, max);
+    fn around(directions: &Span) -> Option<Self> {
+        let Span { middle: axis, half } = *directions;
         let length = axis.dot(axis).sqrt();
         let sin = half.dot(half).sqrt() / length * (1.0 + 1e-5);
         // A wider cone culls next to nothing. NaN fails the comparison too.
@@ -141,7 +221,7 @@ mod tests {
             let Some(cone) = bounds.cone else { continue };
             for _ in 0..20 {
                 let (center, radius) = (v() * 20.0, v().x.abs() * 2.0 + 1e-3);
-                let f = Vec3::from(center) - bounds.origin;
+                let f = Vec3::from(center) - bounds.origin.middle;
                 if !cone.misses::<f32>(f, radius + bounds.spread) {
                     continue;
                 }
@@ -166,7 +246,7 @@ mod tests {
         rays.push(-glam::Vec3::X, glam::Vec3::Z, 0.0, 1.0);
         for width in 0..2 {
             let b = if width == 0 { Bounds::of::<f32>(&rays) } else { Bounds::of::<f32x8>(&rays) }.unwrap();
-            assert!(b.origin.x == 0.0 && b.spread >= 1.0 && b.spread < 1.01 && b.cone.is_some());
+            assert!(b.origin.middle.x == 0.0 && b.spread >= 1.0 && b.spread < 1.01 && b.cone.is_some());
         }
     }
 }

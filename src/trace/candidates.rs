@@ -70,7 +70,7 @@ impl Candidates {
     #[inline(always)]
     pub fn gather<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> View<'_> {
         if bounds.shared() {
-            let o = bounds.origin;
+            let o = bounds.origin.middle;
             self.shared.fill::<L>(
                 scene,
                 bounds,
@@ -108,11 +108,12 @@ impl<P, S, T> Lists<P, S, T> {
         self.planes.clear();
         self.spheres.clear();
         self.triangles.clear();
-        self.planes.extend((0..scene.planes.len()).map(|i| (plane(i), i as u32)));
+        let planes = (0..scene.planes.len()).filter(|&i| !bounds.miss_plane(&scene.planes, i));
+        self.planes.extend(planes.map(|i| (plane(i), i as u32)));
         let first = scene.first_sphere();
         match &bounds.cone {
             Some(cone) => {
-                let origin = Vec3::new(L::splat(bounds.origin.x), L::splat(bounds.origin.y), L::splat(bounds.origin.z));
+                let origin = Vec3::splat(bounds.origin.middle.into());
                 let [x, y, z] = &scene.spheres.center;
                 let count = scene.spheres.len();
                 let whole = count - count % L::WIDTH;
@@ -127,7 +128,7 @@ impl<P, S, T> Lists<P, S, T> {
                     }
                 }
                 for i in whole..count {
-                    let f = Vec3::from(scene.spheres.center(i)) - bounds.origin;
+                    let f = Vec3::from(scene.spheres.center(i)) - bounds.origin.middle;
                     if !cone.misses::<f32>(f, scene.spheres.radius[i] + bounds.spread) {
                         self.spheres.push((sphere(i), first + i as u32));
                     }
@@ -136,7 +137,8 @@ impl<P, S, T> Lists<P, S, T> {
             None => self.spheres.extend((0..scene.spheres.len()).map(|i| (sphere(i), first + i as u32))),
         }
         let first = scene.first_triangle();
-        self.triangles.extend((0..scene.triangles.len()).map(|i| (triangle(i), first + i as u32)));
+        let triangles = (0..scene.triangles.len()).filter(|&i| !bounds.miss_triangle(&scene.triangles, i));
+        self.triangles.extend(triangles.map(|i| (triangle(i), first + i as u32)));
     }
 }
 
