@@ -5,7 +5,7 @@
 //! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n|.
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
-use super::{Nearest, Surface};
+use super::{Nearest, Surface, frame};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// Planes, column by column.
@@ -17,6 +17,19 @@ pub struct Planes {
     pub distance: Vec<f32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    /// The same planes with unit normals, for shading.
+    pub unit: Vec<UnitPlane>,
+}
+
+/// A plane with a unit normal n: n·p + offset = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitPlane {
+    /// n.
+    pub normal: glam::Vec3,
+    /// The distance of the origin from the plane, on the side of n.
+    pub offset: f32,
+    /// [`frame`] of n.
+    pub axes: [glam::Vec3; 2],
 }
 
 /// What a plane's test needs of it and of the rays' origin.
@@ -46,6 +59,11 @@ impl Planes {
         }
         self.distance.push(distance);
         self.material.push(material);
+        // In f64, where the square of a tiny normal does not vanish.
+        let length = normal.as_dvec3().length();
+        let unit = (normal.as_dvec3() / length).as_vec3();
+        let offset = (f64::from(distance) / length) as f32;
+        self.unit.push(UnitPlane { normal: unit, offset, axes: frame(unit) });
     }
 
     /// Plane `i`'s normal.
@@ -62,11 +80,8 @@ impl Planes {
     /// The surface of plane `i` at `point`, which lies near it.
     #[inline(always)]
     pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        // In f64, where the square of a tiny normal does not vanish.
-        let raw = self.normal(i).as_dvec3();
-        let length = raw.length();
-        let normal = Vec3::splat((raw / length).as_vec3());
-        let height = normal.dot(point) + L::splat((f64::from(self.distance[i]) / length) as f32);
+        let normal = Vec3::splat(self.unit[i].normal);
+        let height = normal.dot(point) + L::splat(self.unit[i].offset);
         Surface { point: normal.mul_add(-height, point), normal, reach: 0.0 }
     }
 }

@@ -4,9 +4,12 @@ use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use bytemuck::cast;
-use wide::{f32x4, f32x8, u32x4, u32x8};
+use wide::{f32x4, f32x8, i32x4, i32x8, u32x4, u32x8};
 
-use super::NONE;
+/// The bits of √½.
+const SQRT_HALF: i32 = 0x3f35_04f3;
+/// The bits of 1.
+const ONE: i32 = 127 << 23;
 
 /// One truth value a lane.
 pub trait LaneMask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
@@ -92,9 +95,14 @@ pub trait Lanes:
     }
     /// Lanes whose id is `id`; reads the first `WIDTH` ids. Panics when there are fewer.
     fn id_mask(ids: &[u32], id: u32) -> Self::Mask;
-    /// Writes the first `WIDTH` distances and ids where the mask is true: the distance, or infinity where the id
-    /// bits are [`super::NONE`].
+    /// Writes the lanes' bits, as ids, to the start of a slice. Panics when it is shorter.
+    fn store_ids(self, to: &mut [u32]);
+    /// Writes the first `WIDTH` distances and ids where the mask is true. Panics when there are fewer.
     fn store_hits(t: Self, id: Self, mask: Self::Mask, to_t: &mut [f32], to_id: &mut [u32]);
+    /// Exponent e and mantissa m with self = m · 2^e and m in [√½, √2), for normal numbers above zero.
+    fn exponent_and_mantissa(self) -> (Self, Self);
+    /// 2^n for self = n + 1.5 · 2²³ with a whole n from −126 to 127.
+    fn power_of_two(self) -> Self;
     /// Folds the lanes with `f`, from lane 0 up.
     fn fold(self, f: impl Fn(f32, f32) -> f32) -> f32;
 }
@@ -187,11 +195,24 @@ impl Lanes for f32 {
         ids[0] == id
     }
     #[inline(always)]
+    fn store_ids(self, to: &mut [u32]) {
+        to[0] = self.to_bits();
+    }
+    #[inline(always)]
     fn store_hits(t: Self, id: Self, mask: bool, to_t: &mut [f32], to_id: &mut [u32]) {
         if mask {
             to_id[0] = id.to_bits();
-            to_t[0] = if id.to_bits() == NONE { f32::INFINITY } else { t };
+            to_t[0] = t;
         }
+    }
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        let exponent = (self.to_bits() as i32).wrapping_sub(SQRT_HALF) >> 23;
+        (exponent as f32, f32::from_bits((self.to_bits() as i32).wrapping_sub(exponent << 23) as u32))
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        f32::from_bits((self.to_bits() << 23).wrapping_add(ONE as u32))
     }
     #[inline(always)]
     fn fold(self, _f: impl Fn(f32, f32) -> f32) -> f32 {
@@ -199,9 +220,9 @@ impl Lanes for f32 {
     }
 }
 
-/// A wide type as lanes; `$int` has as many unsigned integers, `$powers` is lane i ↦ 2^i.
+/// A wide type as lanes; `$int` and `$signed` have as many integers, `$powers` is lane i ↦ 2^i.
 macro_rules! wide_lanes {
-    ($float:ident, $int:ident, $width:literal, $name:literal, $powers:expr) => {
+    ($float:ident, $int:ident, $signed:ident, $from_signed:ident, $width:literal, $name:literal, $powers:expr) => {
         impl LaneMask for $float {
             #[inline(always)]
             fn any(self) -> bool {
@@ -299,20 +320,30 @@ macro_rules! wide_lanes {
                 cast::<$int, $float>($int::new(ids).simd_eq($int::splat(id)))
             }
             #[inline(always)]
+            fn store_ids(self, to: &mut [u32]) {
+                to[..$width].copy_from_slice(&cast::<$float, $int>(self).to_array());
+            }
+            #[inline(always)]
             fn store_hits(t: Self, id: Self, mask: Self, to_t: &mut [f32], to_id: &mut [u32]) {
-                let ids = cast::<$float, $int>(id);
-                let none = cast::<$int, $float>(ids.simd_eq($int::splat(NONE)));
-                // The types have methods of their own of these names: ours are called by the trait's.
-                let t = Lanes::select($float::splat(f32::INFINITY), none, t);
                 if LaneMask::all(mask) {
                     t.store(to_t);
-                    to_id[..$width].copy_from_slice(&ids.to_array());
+                    id.store_ids(to_id);
                 } else {
+                    // The types have methods of their own of this name: ours is called by the trait's.
                     let old: [u32; $width] = to_id[..$width].try_into().expect("the slice has this length");
-                    let ids = Lanes::select(id, mask, cast::<$int, $float>($int::new(old)));
+                    Lanes::select(id, mask, cast::<$int, $float>($int::new(old))).store_ids(to_id);
                     Lanes::select(t, mask, $float::load(to_t)).store(to_t);
-                    to_id[..$width].copy_from_slice(&cast::<$float, $int>(ids).to_array());
                 }
+            }
+            #[inline(always)]
+            fn exponent_and_mantissa(self) -> (Self, Self) {
+                let bits = cast::<$float, $signed>(self);
+                let exponent = (bits - $signed::splat(SQRT_HALF)) >> 23;
+                ($float::$from_signed(exponent), cast::<$signed, $float>(bits - (exponent << 23)))
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                cast::<$signed, $float>((cast::<$float, $signed>(self) << 23) + $signed::splat(ONE))
             }
             #[inline(always)]
             fn fold(self, f: impl Fn(f32, f32) -> f32) -> f32 {
@@ -323,8 +354,8 @@ macro_rules! wide_lanes {
     };
 }
 
-wide_lanes!(f32x4, u32x4, 4, "x4", [1, 2, 4, 8]);
-wide_lanes!(f32x8, u32x8, 8, "x8", [1, 2, 4, 8, 16, 32, 64, 128]);
+wide_lanes!(f32x4, u32x4, i32x4, from_i32x4, 4, "x4", [1, 2, 4, 8]);
+wide_lanes!(f32x8, u32x8, i32x8, from_i32x8, 8, "x8", [1, 2, 4, 8, 16, 32, 64, 128]);
 
 #[cfg(test)]
 mod tests {
@@ -396,6 +427,9 @@ mod tests {
         lt: |a, b, c| a.select(a.lt(b), c);
         le: |a, b, c| a.select(a.le(b), c);
         eq: |a, b, c| a.select(a.eq(b), c);
+        exponent: |a, _b, _c| a.max(L::splat(1e-37)).exponent_and_mantissa().0;
+        mantissa: |a, _b, _c| a.max(L::splat(1e-37)).exponent_and_mantissa().1;
+        power_of_two: |a, _b, _c| (a.max(L::splat(-99.0)).min(L::splat(99.0)) + L::splat(12_582_912.0)).power_of_two();
         gt_and_not: |a, b, c| a.select(!a.gt(b) & c.ge(b), c);
     }
 

@@ -10,5 +10,5 @@ mod vec3;
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
 pub use lanes::{LaneMask, Lanes, fused_mul_add};
-pub use power::{powf, srgb8};
+pub use power::powf;
 pub use vec3::Vec3;

@@ -1,6 +1,6 @@
 //! The finished picture, and the way from radiance to display values.
 
-use crate::math::srgb8;
+use std::sync::LazyLock;
 
 /// Linear radiance per pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,8 +20,82 @@ impl Film {
     }
 }
 
-/// Linear RGB to 0RGB with the sRGB curve, clamped to 0..1, NaN as 0.
-#[inline(always)]
+/// Linear RGB to 0RGB with the sRGB curve (IEC 61966-2-1), clamped to 0..1, NaN as 0; off by at most 0.56 of a code.
 pub fn tone_map(rgb: [f32; 3]) -> u32 {
-    srgb8(rgb[0]) << 16 | srgb8(rgb[1]) << 8 | srgb8(rgb[2])
+    Tone::get().map(rgb)
+}
+
+/// The sRGB curve as a table over the high bits of a number: 2¹⁰ entries an octave from 2⁻¹³, below which all is
+/// black, to 1.
+#[derive(Debug)]
+pub(crate) struct Tone {
+    codes: [u8; Self::OCTAVES << Self::BITS],
+}
+
+impl Tone {
+    const OCTAVES: usize = 13;
+    const BITS: usize = 10;
+    /// 2⁻¹³.
+    const LEAST: f32 = 1.220_703_1e-4;
+    /// The number before 1.
+    const MOST: f32 = 1.0 - 0.5 * f32::EPSILON;
+
+    pub(crate) fn get() -> &'static Self {
+        static TONE: LazyLock<Tone> = LazyLock::new(Tone::new);
+        &TONE
+    }
+
+    fn new() -> Self {
+        let code = |i: usize| {
+            // The middle of the entry's numbers.
+            let bits = Self::LEAST.to_bits() + ((2 * i as u32 + 1) << (22 - Self::BITS));
+            let x = f64::from(f32::from_bits(bits));
+            let curved = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+            (curved * 255.0).round() as u8
+        };
+        Self { codes: std::array::from_fn(code) }
+    }
+
+    #[inline(always)]
+    fn code(&self, linear: f32) -> u32 {
+        let x = if linear > Self::LEAST { linear } else { Self::LEAST };
+        let x = if x < Self::MOST { x } else { Self::MOST };
+        u32::from(self.codes[((x.to_bits() - Self::LEAST.to_bits()) >> (23 - Self::BITS)) as usize])
+    }
+
+    /// See [`tone_map`].
+    #[inline(always)]
+    pub(crate) fn map(&self, [r, g, b]: [f32; 3]) -> u32 {
+        self.code(r) << 16 | self.code(g) << 8 | self.code(b)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(x: f64) -> f64 {
+        255.0 * if x <= 0.0031308 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+    }
+
+    #[test]
+    fn codes_are_as_exact_as_stated() {
+        for i in 0..=100_000 {
+            let x = i as f32 / 100_000.0;
+            let code = tone_map([x; 3]) & 0xff;
+            assert!((f64::from(code) - exact(f64::from(x))).abs() <= 0.56, "{x}: {code}");
+        }
+    }
+
+    #[test]
+    fn every_code_comes_back_and_the_rest_is_clamped() {
+        for code in 0..=255u32 {
+            let v = f64::from(code) / 255.0;
+            let linear = if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
+            assert_eq!(tone_map([linear as f32; 3]), code * 0x10101);
+        }
+        assert_eq!(tone_map([-1.0, f32::NAN, f32::NEG_INFINITY]), 0);
+        assert_eq!(tone_map([1.0, 9.0, f32::INFINITY]), 0xff_ffff);
+        assert_eq!(tone_map([1.0, 0.0, 1e-40]), 0xff_0000);
+    }
 }

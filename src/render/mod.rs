@@ -9,6 +9,7 @@ mod tile;
 
 pub use crate::shade::Counts;
 pub use camera::Camera;
+pub(crate) use film::Tone;
 pub use film::{Film, tone_map};
 pub use kernel::Kernel;
 pub(crate) use kernel::with_lanes;

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::kernel::with_lanes;
-use super::{Camera, Film, Kernel, tone_map};
-use crate::math::{BATCH, Lanes, NONE, RayBatch, Vec3};
+use super::{Camera, Film, Kernel, Tone};
+use crate::math::{BATCH, HitBatch, Lanes, NONE, RayBatch, Vec3};
 use crate::scene::Scene;
 use crate::shade::{Counts, Observer, Workspace, facing_normal, trace_waves};
 use crate::trace::{Candidates, intersect};
@@ -93,16 +93,19 @@ pub fn render(
     let done = AtomicUsize::new(0);
     let rows = film.height.div_ceil(TILE);
     let samples = samples.max(1);
-    let tile = |work: &mut Work, first: [usize; 2]| {
+    let scale = 1.0 / (samples * samples) as f32;
+    over_tiles(&mut film.pixels, film.width, |work, first, out| {
         let counts = with_lanes!(kernel, sampled(scene, &grid, first, samples, work));
         if first[0] + TILE >= grid.width {
             let rows_done = 1 + done.fetch_add(1, Ordering::Relaxed);
             progress(rows_done as f32 / rows as f32);
         }
+        let [r, g, b] = &work.sum;
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = [r[i] * scale, g[i] * scale, b[i] * scale];
+        }
         counts
-    };
-    let scale = 1.0 / (samples * samples) as f32;
-    over_tiles(&mut film.pixels, film.width, tile, |work, i| [0, 1, 2].map(|axis| work.sum[axis][i] * scale))
+    })
 }
 
 /// Renders one sample a pixel straight to 0RGB with the sRGB curve, for a window; `pixels` holds width × height.
@@ -119,15 +122,15 @@ pub fn render_display(
 ) -> Counts {
     assert_eq!(pixels.len(), width * height, "the buffer holds the picture");
     let grid = Grid::new(camera, width, height);
-    let tile = |work: &mut Work, first: [usize; 2]| {
+    let tone = Tone::get();
+    over_tiles(pixels, width, |work, first, out| {
         let counts = with_lanes!(kernel, centred(scene, &grid, first, work));
         let [r, g, b] = &work.shading.radiance;
-        for i in 0..BATCH {
-            work.display[i] = tone_map([r[i], g[i], b[i]]);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = tone.map([r[i], g[i], b[i]]);
         }
         counts
-    };
-    over_tiles(pixels, width, tile, |work, i| work.display[i])
+    })
 }
 
 /// The nearest hits of the pixel-centre rays, row by row.
@@ -145,15 +148,18 @@ pub struct PrimaryHits {
 pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize, height: usize) -> PrimaryHits {
     let grid = Grid::new(camera, width, height);
     let mut hits = vec![(f32::INFINITY, NONE, [0.0; 3]); width * height];
-    let tile = |work: &mut Work, first: [usize; 2]| {
+    over_tiles(&mut hits, width, |work, first, out| {
         with_lanes!(kernel, traced(scene, &grid, first, work));
-        Counts::default()
-    };
-    over_tiles(&mut hits, width, tile, |work, i| {
-        let (t, id) = (work.shading.hits.t[i], work.shading.hits.primitive[i]);
         let rays = &work.shading.primary.rays;
-        let at = |c: &[[f32; BATCH]; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
-        (t, id, facing_normal(scene, id, rays.first_origin(), at(&rays.direction), t))
+        for (i, out) in out.iter_mut().enumerate() {
+            let (t, id) = (work.hits.t[i], work.hits.primitive[i]);
+            let direction = glam::Vec3::from_array([0, 1, 2].map(|axis| rays.direction[axis][i]));
+            // Rays beyond the picture's edge have no answer of their own.
+            let known = rays.t_max[i] >= 0.0;
+            let normal = if known { facing_normal(scene, id, rays.first_origin(), direction, t) } else { [0.0; 3] };
+            *out = (t, id, normal);
+        }
+        Counts::default()
     });
     PrimaryHits {
         t: hits.iter().map(|h| h.0).collect(),
@@ -168,7 +174,7 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
 struct Work {
     shading: Workspace,
     sum: [[f32; BATCH]; 3],
-    display: [u32; BATCH],
+    hits: HitBatch,
     candidates: Candidates,
 }
 
@@ -177,37 +183,49 @@ impl Default for Work {
         Self {
             shading: Workspace::default(),
             sum: [[0.0; BATCH]; 3],
-            display: [0; BATCH],
+            hits: HitBatch::default(),
             candidates: Candidates::default(),
         }
     }
 }
 
-/// Runs `tile` on every tile, rows of tiles in parallel, and stores `pixel` of every ray where it belongs.
-fn over_tiles<P: Send>(
+/// Runs `tile` on every tile, rows of tiles in parallel, and stores the pixels it gives, ray by ray, where they belong.
+fn over_tiles<P: Copy + Default + Send>(
     pixels: &mut [P],
     width: usize,
-    tile: impl Fn(&mut Work, [usize; 2]) -> Counts + Sync,
-    pixel: impl Fn(&Work, usize) -> P + Sync,
+    tile: impl Fn(&mut Work, [usize; 2], &mut [P; BATCH]) -> Counts + Sync,
 ) -> Counts {
     if width == 0 {
         return Counts::default();
     }
     let strip = |work: &mut Box<Work>, (row, strip): (usize, &mut [P])| {
         let mut counts = Counts::default();
+        let mut done = [P::default(); BATCH];
         for x0 in (0..width).step_by(TILE) {
-            counts = counts + tile(work, [x0, row * TILE]);
-            for (i, &[x, y]) in PLACE.iter().enumerate() {
-                let (x, y) = (x0 + usize::from(x), usize::from(y));
-                if x < width && y * width < strip.len() {
-                    strip[y * width + x] = pixel(work, i);
-                }
-            }
+            counts = counts + tile(work, [x0, row * TILE], &mut done);
+            put(&done, strip, width, x0);
         }
         counts
     };
     let strips = pixels.par_chunks_mut(width * TILE).enumerate();
     strips.map_init(Box::<Work>::default, strip).reduce(Counts::default, |a, b| a + b)
+}
+
+/// Stores a tile whose left edge is `x0` in its row of tiles; what lies beyond the picture's edge is left out.
+fn put<P: Copy>(tile: &[P; BATCH], strip: &mut [P], width: usize, x0: usize) {
+    let height = strip.len() / width;
+    // Four rays in a row are four pixels in a row.
+    for (four, place) in tile.chunks_exact(4).zip(PLACE.chunks_exact(4)) {
+        let (x, y) = (x0 + usize::from(place[0][0]), usize::from(place[0][1]));
+        if x < width && y < height {
+            let inside = 4.min(width - x);
+            let row = &mut strip[y * width + x..][..inside];
+            match <&mut [P; 4]>::try_from(&mut *row) {
+                Ok(row) => row.copy_from_slice(four),
+                Err(_) => row.copy_from_slice(&four[..inside]),
+            }
+        }
+    }
 }
 
 fn centred<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) -> Counts {
@@ -255,5 +273,5 @@ pub fn record(
 
 fn traced<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) {
     grid.fill::<L>(first, [0.5, 0.5], &mut work.shading.primary.rays);
-    intersect::<L>(scene, &work.shading.primary.rays, &mut work.shading.hits, &mut work.candidates);
+    intersect::<L>(scene, &work.shading.primary.rays, &mut work.hits, &mut work.candidates);
 }

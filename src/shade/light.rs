@@ -1,51 +1,42 @@
 //! One light's share of a wave: its shadow rays, and what arrives.
 
-use super::spawn;
+use super::spawn::{self, ShadowRay};
 use super::surface::Surfaces;
 use super::wave::{Observer, Wave};
-use crate::math::{BATCH, Blocked, LaneMask, Lanes, RayBatch, Vec3, powf};
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene, ShadowStart};
-use crate::trace::{Candidates, occluded};
+use crate::trace::{Bounds, Candidates, Extent, Span, any_hits};
 
 /// 1 / (4 π).
 const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
 
-/// Room for one light's work on a wave, and the sum over the lights.
-#[derive(Clone, Debug, Default)]
+/// A number a ray.
+pub type Column = [f32; BATCH];
+
+/// Room for one light's work on a wave, and the sums over the lights.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
 pub struct Lighting {
     rays: RayBatch,
-    blocked: Blocked,
     /// Irradiance so far.
-    pub irradiance: Columns,
+    pub irradiance: [Column; 3],
     /// Highlights so far, still to be weighted.
-    pub highlight: Columns,
-    /// This light's E · n·l, for a power of 1.
-    diffuse: Column,
-    /// This light's E, for a power of 1; only where something is glossy, as is the next.
+    pub highlight: [Column; 3],
+    /// This light's E, for a power of 1.
     arriving: Column,
-    /// r·l, then (r·l)^shininess.
-    gloss: Column,
+    /// This light's n·l.
+    cosine: Column,
 }
 
-/// A number a ray.
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-pub struct Column(pub [f32; BATCH]);
-
-/// A colour a ray.
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-pub struct Columns(pub [[f32; BATCH]; 3]);
-
-impl Default for Column {
+impl Default for Lighting {
     fn default() -> Self {
-        Self([0.0; BATCH])
-    }
-}
-
-impl Default for Columns {
-    fn default() -> Self {
-        Self([[0.0; BATCH]; 3])
+        Self {
+            rays: RayBatch::default(),
+            irradiance: [[0.0; BATCH]; 3],
+            highlight: [[0.0; BATCH]; 3],
+            arriving: [0.0; BATCH],
+            cosine: [0.0; BATCH],
+        }
     }
 }
 
@@ -53,9 +44,9 @@ impl Lighting {
     /// Starts a wave of `len` rays: ambient light only.
     pub fn start(&mut self, scene: &Scene, len: usize, glossy: bool) {
         for axis in 0..3 {
-            self.irradiance.0[axis][..len].fill(scene.settings.ambient[axis]);
+            self.irradiance[axis][..len].fill(scene.settings.ambient[axis]);
             if glossy {
-                self.highlight.0[axis][..len].fill(0.0);
+                self.highlight[axis][..len].fill(0.0);
             }
         }
     }
@@ -71,31 +62,71 @@ impl Lighting {
         scratch: &mut Candidates,
         observer: &mut impl Observer,
     ) -> u64 {
-        let count = self.fire::<L>(scene, light, wave, surfaces);
+        let (count, bounds) = match scene.plan.shadows[light] {
+            ShadowStart::Light => self.fire_from_light::<L>(scene, light, wave, surfaces),
+            ShadowStart::Point => self.fire_from_points::<L>(scene, light, wave, surfaces),
+        };
         if count > 0 {
             observer.shadow(&self.rays);
-            occluded::<L>(scene, &self.rays, &mut self.blocked, scratch);
-            if surfaces.glossy {
-                for at in 0..wave.rays.len {
-                    self.gloss.0[at] = powf(self.gloss.0[at], surfaces.shininess[at]);
-                }
-            }
-            self.collect::<L>(&scene.lights[light], wave.rays.len, surfaces.glossy);
+            self.collect::<L>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
         }
         count
     }
 
-    /// Makes the shadow rays: one for every hit that faces the light.
+    /// Makes the shadow rays, one for every hit that faces the light, from the light.
     #[inline(always)]
-    fn fire<L: Lanes>(&mut self, scene: &Scene, light: usize, wave: &Wave, surfaces: &Surfaces) -> u64 {
+    fn fire_from_light<L: Lanes>(
+        &mut self,
+        scene: &Scene,
+        light: usize,
+        wave: &Wave,
+        surfaces: &Surfaces,
+    ) -> (u64, Bounds) {
+        let position = scene.lights[light].position;
+        self.rays.set_common_origin(position);
+        let mut directions = Extent::<L>::empty();
+        let count = self.fire::<L>(scene, wave, surfaces, |_, at, point, normal, lift| {
+            let ray = spawn::shadow_from_light(Vec3::splat(position), point, normal, lift);
+            directions.include(ray.direction, L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero()));
+            ray
+        });
+        (count, Bounds::new(Span::at(position), directions.span()))
+    }
+
+    /// Makes the same rays, from the points.
+    #[inline(always)]
+    fn fire_from_points<L: Lanes>(
+        &mut self,
+        scene: &Scene,
+        light: usize,
+        wave: &Wave,
+        surfaces: &Surfaces,
+    ) -> (u64, Bounds) {
         let position = Vec3::splat(scene.lights[light].position);
-        let start = scene.plan.shadows[light];
+        self.rays.common_origin = false;
+        let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
+        let count = self.fire::<L>(scene, wave, surfaces, |rays, at, point, normal, lift| {
+            let ray = spawn::shadow_from_point(position, point, normal, lift);
+            let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
+            directions.include(ray.direction, active);
+            origins.include(ray.origin, active);
+            ray.origin.store(&mut rays.origin, at);
+            ray
+        });
+        (count, Bounds::new(origins.span(), directions.span()))
+    }
+
+    /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number.
+    #[inline(always)]
+    fn fire<L: Lanes>(
+        &mut self,
+        scene: &Scene,
+        wave: &Wave,
+        surfaces: &Surfaces,
+        mut spawn: impl FnMut(&mut RayBatch, usize, Vec3<L>, Vec3<L>, L) -> ShadowRay<L>,
+    ) -> u64 {
         let mut count = 0;
         self.rays.len = wave.rays.len;
-        match start {
-            ShadowStart::Light => self.rays.set_common_origin(scene.lights[light].position),
-            ShadowStart::Point => self.rays.common_origin = false,
-        }
         for at in (0..wave.rays.len).step_by(L::WIDTH) {
             let lift = L::load(&surfaces.lift[at..]);
             let hit = lift.ge(L::zero());
@@ -103,54 +134,53 @@ impl Lighting {
                 L::splat(-1.0).store(&mut self.rays.t_max[at..]);
                 continue;
             }
-            let normal = Vec3::load(&surfaces.normal, at);
-            let point = Vec3::load(&surfaces.point, at);
-            let ray = match start {
-                ShadowStart::Light => spawn::shadow_from_light(position, point, normal, lift),
-                ShadowStart::Point => spawn::shadow_from_point(position, point, normal, lift),
-            };
+            let (point, normal) = (Vec3::load(&surfaces.point, at), Vec3::load(&surfaces.normal, at));
+            let ray = spawn(&mut self.rays, at, point, normal, lift);
             let lit = hit & ray.cosine.gt(L::zero());
             count += u64::from(lit.bits().count_ones());
-            if start == ShadowStart::Point {
-                ray.origin.store(&mut self.rays.origin, at);
-            }
             ray.direction.store(&mut self.rays.direction, at);
             ray.t_max.select(lit, L::splat(-1.0)).store(&mut self.rays.t_max[at..]);
-            let e = if scene.settings.attenuation {
-                ray.inverse * ray.inverse * L::splat(PER_SPHERE)
-            } else {
-                L::splat(1.0)
-            };
-            (e * ray.cosine).store(&mut self.diffuse.0[at..]);
-            if surfaces.glossy {
-                let mirrored = spawn::mirror(Vec3::load(&wave.rays.direction, at), normal);
-                let cosine = mirrored.dot(ray.direction);
-                let towards = if start == ShadowStart::Light { -cosine } else { cosine };
-                e.store(&mut self.arriving.0[at..]);
-                towards.store(&mut self.gloss.0[at..]);
+            if scene.settings.attenuation {
+                (ray.inverse * ray.inverse * L::splat(PER_SPHERE)).store(&mut self.arriving[at..]);
             }
+            ray.cosine.store(&mut self.cosine[at..]);
         }
         count
     }
 
-    /// Adds what the light does where nothing blocks it.
+    /// Traces the shadow rays, and adds what the light does where nothing blocks them.
     #[inline(always)]
-    fn collect<L: Lanes>(&mut self, light: &Light, len: usize, glossy: bool) {
+    fn collect<L: Lanes>(
+        &mut self,
+        scene: &Scene,
+        light: &Light,
+        bounds: &Bounds,
+        wave: &Wave,
+        surfaces: &Surfaces,
+        scratch: &mut Candidates,
+    ) {
+        let Self { rays, irradiance, highlight, arriving, cosine } = self;
         let power = Vec3::<L>::splat(light.power);
-        for at in (0..len).step_by(L::WIDTH) {
-            let seen = !L::Mask::from_bits(self.blocked.get(at, L::WIDTH));
-            let lit = L::load(&self.rays.t_max[at..]).ge(L::zero()) & seen;
+        any_hits::<L>(scene, rays, bounds, scratch, |at, active, settled| {
+            let lit = active & !settled;
             if !lit.any() {
-                continue;
+                return;
             }
-            let diffuse = L::load(&self.diffuse.0[at..]).select(lit, L::zero());
-            let sum = Vec3::load(&self.irradiance.0, at);
-            power.mul_add(diffuse, sum).store(&mut self.irradiance.0, at);
-            if glossy {
-                let gloss = L::load(&self.gloss.0[at..]) * L::load(&self.arriving.0[at..]);
-                let sum = Vec3::load(&self.highlight.0, at);
-                power.mul_add(gloss.select(lit, L::zero()), sum).store(&mut self.highlight.0, at);
+            let e = if scene.settings.attenuation { L::load(&arriving[at..]) } else { L::splat(1.0) };
+            let diffuse = (e * L::load(&cosine[at..])).select(lit, L::zero());
+            power.mul_add(diffuse, Vec3::load(irradiance, at)).store(irradiance, at);
+            let shiny = lit & L::load(&surfaces.specular[at..]).gt(L::zero());
+            if surfaces.glossy && shiny.any() {
+                let mirrored =
+                    spawn::mirror(Vec3::<L>::load(&wave.rays.direction, at), Vec3::load(&surfaces.normal, at));
+                let along = mirrored.dot(Vec3::load(&rays.direction, at));
+                let towards = if rays.common_origin { -along } else { along };
+                let shiny = shiny & towards.gt(L::zero());
+                if shiny.any() {
+                    let gloss = (e * powf(towards, L::load(&surfaces.shininess[at..]))).select(shiny, L::zero());
+                    power.mul_add(gloss, Vec3::load(highlight, at)).store(highlight, at);
+                }
             }
-        }
+        });
     }
 }

@@ -3,8 +3,9 @@
 use super::spawn;
 use super::wave::Wave;
 use crate::geometry::{Surface, frame};
-use crate::math::{BATCH, HitBatch, LaneMask, Lanes, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, Vec3};
 use crate::scene::{Pigment, Scene};
+use crate::trace::Nearest;
 
 /// The surfaces that a wave's rays hit, column by column.
 #[derive(Clone, Debug)]
@@ -57,31 +58,36 @@ struct Gathered<L> {
 }
 
 impl Surfaces {
-    /// Finds the surfaces of packet `at`, whose hits are `hit`.
+    /// Starts a wave: nothing hit yet.
+    pub fn start(&mut self, len: usize) {
+        self.glossy = false;
+        // Packets without an active ray are passed over later on; the last may be beyond the end.
+        self.lift[..len.next_multiple_of(8)].fill(-1.0);
+    }
+
+    /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`.
     ///
     /// Neighbouring rays mostly hit the same primitive, so each primitive in the packet is looked at once, for all
     /// lanes, and selected where it was hit.
     #[inline(always)]
-    pub fn find<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, hits: &HitBatch, at: usize, hit: L::Mask) {
+    pub fn find<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
         let direction = Vec3::<L>::load(&wave.rays.direction, at);
-        let p = direction.mul_add(L::load(&hits.t[at..]), wave.rays.origins(at));
-        let mut left = hit.bits();
-        let mut all: Option<Gathered<L>> = None;
+        let p = direction.mul_add(hit.t, wave.rays.origins(at));
+        let mut ids = [0; 8];
+        hit.primitive.store_ids(&mut ids);
+        let first = ids[hit.found.bits().trailing_zeros() as usize];
+        let mut g = gather(scene, first, p);
+        let mut left = hit.found.bits() & !L::id_mask(&ids, first).bits();
         while left != 0 {
-            let id = hits.primitive[at + left.trailing_zeros() as usize];
-            let same = L::id_mask(&hits.primitive[at..], id);
+            let id = ids[left.trailing_zeros() as usize];
+            let same = L::id_mask(&ids, id);
+            g = gather(scene, id, p).select(same, g);
             left &= !same.bits();
-            let one = gather(scene, id, p);
-            all = Some(all.map_or(one, |others| one.select(same, others)));
         }
-        let Some(g) = all else {
-            L::splat(-1.0).store(&mut self.lift[at..]);
-            return;
-        };
         let normal = (-g.normal).select(g.normal.dot(direction).gt(L::zero()), g.normal);
         g.point.store(&mut self.point, at);
         normal.store(&mut self.normal, at);
-        spawn::lift(g.point, g.reach).select(hit, L::splat(-1.0)).store(&mut self.lift[at..]);
+        spawn::lift(g.point, g.reach).select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
         let own = weight * (L::splat(1.0) - g.mirror);
         (g.color * own).store(&mut self.color, at);
@@ -158,20 +164,21 @@ fn odd_cell<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, per_size: f3
         let local = (surface.point - center) * per_size;
         local.x.floor() + local.y.floor() + local.z.floor()
     } else {
-        let [t, b] = frame(flat_normal(scene, id)).map(Vec3::splat);
+        let [t, b] = axes(scene, id).map(Vec3::splat);
         (surface.point.dot(t) * per_size).floor() + (surface.point.dot(b) * per_size).floor()
     };
     let half = cells * L::splat(0.5);
     !half.floor().eq(half)
 }
 
-/// The unit normal of a plane or triangle.
-fn flat_normal(scene: &Scene, id: u32) -> glam::Vec3 {
+/// The axes of a plane's or triangle's pattern.
+#[inline(always)]
+fn axes(scene: &Scene, id: u32) -> [glam::Vec3; 2] {
     if id < scene.first_sphere() {
-        scene.planes.normal(id as usize).as_dvec3().normalize().as_vec3()
+        scene.planes.unit[id as usize].axes
     } else {
         let [_, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
-        e1.cross(e2).normalize()
+        frame(e1.cross(e2).normalize())
     }
 }
 

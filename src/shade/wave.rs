@@ -3,9 +3,9 @@
 use super::light::Lighting;
 use super::spawn;
 use super::surface::Surfaces;
-use crate::math::{BATCH, HitBatch, LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Scene;
-use crate::trace::{Candidates, intersect};
+use crate::trace::{Bounds, Candidates, nearest_hits};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,8 +75,6 @@ pub struct Workspace {
     pub primary: Wave,
     /// The tile's linear radiance.
     pub radiance: [[f32; BATCH]; 3],
-    /// The hits of the latest wave.
-    pub hits: HitBatch,
     waves: [Wave; 2],
     surfaces: Surfaces,
     lighting: Lighting,
@@ -88,7 +86,6 @@ impl Default for Workspace {
         Self {
             primary: Wave::default(),
             radiance: [[0.0; BATCH]; 3],
-            hits: HitBatch::default(),
             waves: [Wave::default(), Wave::default()],
             surfaces: Surfaces::default(),
             lighting: Lighting::default(),
@@ -100,7 +97,7 @@ impl Default for Workspace {
 /// Traces and shades the eye rays of `work.primary` and all that follows from them into `work.radiance`.
 pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
-    let Workspace { primary, radiance, hits, waves, surfaces, lighting, candidates } = work;
+    let Workspace { primary, radiance, waves, surfaces, lighting, candidates } = work;
     for axis in radiance.iter_mut() {
         axis[..primary.rays.len].fill(0.0);
     }
@@ -113,20 +110,16 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
             _ => (even, &mut *odd),
         };
         let len = wave.rays.len;
-        intersect::<L>(scene, &wave.rays, hits, candidates);
-        let any = arrive::<L>(scene, wave, hits, surfaces, radiance, depth == 1);
-        if !any {
+        if !arrive::<L>(scene, wave, surfaces, radiance, candidates, depth == 1) {
             break;
         }
         lighting.start(scene, len, surfaces.glossy);
         for light in 0..scene.lights.len() {
             counts.shadow += lighting.add::<L>(scene, light, wave, surfaces, candidates, observer);
         }
-        settle::<L>(wave, surfaces, lighting, radiance, depth == 1);
-        if depth == scene.plan.waves {
-            break;
-        }
-        reflect::<L>(wave, surfaces, next);
+        let last = depth == scene.plan.waves;
+        next.rays.clear();
+        leave::<L>(wave, surfaces, lighting, radiance, depth == 1, if last { None } else { Some(&mut *next) });
         counts.reflection += next.rays.len as u64;
         if next.rays.len == 0 {
             break;
@@ -136,51 +129,65 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
     counts
 }
 
-/// Finds the surfaces of all hits and gives the sky to all misses; whether there is any hit.
+/// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
+#[inline(always)]
 fn arrive<L: Lanes>(
     scene: &Scene,
     wave: &Wave,
-    hits: &HitBatch,
     surfaces: &mut Surfaces,
     radiance: &mut [[f32; BATCH]; 3],
+    candidates: &mut Candidates,
     in_order: bool,
 ) -> bool {
+    let Some(bounds) = Bounds::of::<L>(&wave.rays) else { return false };
     let sky = Vec3::<L>::splat(scene.sky.color);
     let mut any = false;
-    surfaces.glossy = false;
-    for at in (0..wave.rays.len).step_by(L::WIDTH) {
-        let active = L::load(&wave.rays.t_max[at..]).ge(L::zero());
-        let hit = active & L::load(&hits.t[at..]).lt(L::splat(f32::INFINITY));
-        any |= hit.any();
-        surfaces.find::<L>(scene, wave, hits, at, hit);
-        let missed = active & !hit;
+    surfaces.start(wave.rays.len);
+    nearest_hits::<L>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
+        if hit.found.any() {
+            any = true;
+            surfaces.find::<L>(scene, wave, at, hit);
+        }
+        let missed = active & !hit.found;
         if missed.any() {
             deposit(wave, at, sky * L::load(&wave.weight[at..]), missed, radiance, in_order);
         }
-    }
+    });
     any
 }
 
-/// Gives the light that the surfaces send back to their pixels.
-fn settle<L: Lanes>(
+/// Gives the light that the surfaces send back to their pixels, and makes the mirrors' rays, packed together.
+#[inline(always)]
+fn leave<L: Lanes>(
     wave: &Wave,
     surfaces: &Surfaces,
     lighting: &Lighting,
     radiance: &mut [[f32; BATCH]; 3],
     in_order: bool,
+    mut next: Option<&mut Wave>,
 ) {
     for at in (0..wave.rays.len).step_by(L::WIDTH) {
-        let hit = L::load(&surfaces.lift[at..]).ge(L::zero());
+        let lift = L::load(&surfaces.lift[at..]);
+        let hit = lift.ge(L::zero());
         if !hit.any() {
             continue;
         }
         let color = Vec3::<L>::load(&surfaces.color, at);
-        let irradiance = Vec3::<L>::load(&lighting.irradiance.0, at);
+        let irradiance = Vec3::<L>::load(&lighting.irradiance, at);
         let mut sent = Vec3::new(color.x * irradiance.x, color.y * irradiance.y, color.z * irradiance.z);
         if surfaces.glossy {
-            sent = Vec3::load(&lighting.highlight.0, at).mul_add(L::load(&surfaces.specular[at..]), sent);
+            sent = Vec3::load(&lighting.highlight, at).mul_add(L::load(&surfaces.specular[at..]), sent);
         }
         deposit(wave, at, sent, hit, radiance, in_order);
+        if let Some(next) = &mut next {
+            let weight = L::load(&surfaces.mirror[at..]);
+            let goes_on = hit & weight.gt(L::zero());
+            if goes_on.any() {
+                let (point, normal) = (Vec3::load(&surfaces.point, at), Vec3::load(&surfaces.normal, at));
+                let (o, d) = spawn::reflected(Vec3::load(&wave.rays.direction, at), point, normal, lift);
+                next.append(o, d, weight, &wave.pixel[at..at + L::WIDTH], goes_on);
+            }
+        }
     }
 }
 
@@ -199,6 +206,12 @@ fn deposit<L: Lanes>(
         (old + rgb).select(mask, old).store(radiance, at);
         return;
     }
+    // Packing keeps the order, so a packet whose ends are a width apart is a run of pixels.
+    let first = usize::from(wave.pixel[at]);
+    if mask.all() && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1 {
+        (Vec3::load(radiance, first) + rgb).store(radiance, first);
+        return;
+    }
     let mut lanes = [[0.0; 8]; 3];
     rgb.store(&mut lanes, 0);
     let mut left = mask.bits();
@@ -212,31 +225,38 @@ fn deposit<L: Lanes>(
     }
 }
 
-/// Makes the mirrors' rays, packed together.
-fn reflect<L: Lanes>(wave: &Wave, surfaces: &Surfaces, next: &mut Wave) {
-    next.rays.clear();
-    for at in (0..wave.rays.len).step_by(L::WIDTH) {
-        let lift = L::load(&surfaces.lift[at..]);
-        let weight = L::load(&surfaces.mirror[at..]);
-        let goes_on = lift.ge(L::zero()) & weight.gt(L::zero());
-        let mut left = goes_on.bits();
-        if left == 0 {
-            continue;
+impl Wave {
+    /// Adds the lanes of a packet where `mask` is true, in order; their rays have no end.
+    #[inline(always)]
+    fn append<L: Lanes>(&mut self, origin: Vec3<L>, direction: Vec3<L>, weight: L, pixel: &[u8], mask: L::Mask) {
+        let to = self.rays.len;
+        if mask.all() {
+            origin.store(&mut self.rays.origin, to);
+            direction.store(&mut self.rays.direction, to);
+            L::splat(f32::INFINITY).store(&mut self.rays.t_max[to..]);
+            weight.store(&mut self.weight[to..]);
+            self.pixel[to..to + L::WIDTH].copy_from_slice(pixel);
+            self.rays.len = to + L::WIDTH;
+        } else {
+            let (mut o, mut d, mut w) = ([[0.0; 8]; 3], [[0.0; 8]; 3], [0.0; 8]);
+            origin.store(&mut o, 0);
+            direction.store(&mut d, 0);
+            weight.store(&mut w);
+            let mut left = mask.bits();
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                let to = self.rays.len;
+                for axis in 0..3 {
+                    self.rays.origin[axis][to] = o[axis][lane];
+                    self.rays.direction[axis][to] = d[axis][lane];
+                }
+                self.rays.t_max[to] = f32::INFINITY;
+                self.weight[to] = w[lane];
+                self.pixel[to] = pixel[lane];
+                self.rays.len = to + 1;
+                left &= left - 1;
+            }
         }
-        let (point, normal) = (Vec3::load(&surfaces.point, at), Vec3::load(&surfaces.normal, at));
-        let (origin, direction) = spawn::reflected(Vec3::load(&wave.rays.direction, at), point, normal, lift);
-        let (mut o, mut d, mut w) = ([[0.0; 8]; 3], [[0.0; 8]; 3], [0.0; 8]);
-        origin.store(&mut o, 0);
-        direction.store(&mut d, 0);
-        weight.store(&mut w);
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            let to = next.rays.len;
-            next.weight[to] = w[lane];
-            next.pixel[to] = wave.pixel[at + lane];
-            let one = |c: &[[f32; 8]; 3]| glam::Vec3::new(c[0][lane], c[1][lane], c[2][lane]);
-            next.rays.push(one(&o), one(&d), 0.0, f32::INFINITY);
-            left &= left - 1;
-        }
+        self.rays.common_origin = false;
     }
 }

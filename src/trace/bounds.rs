@@ -88,9 +88,7 @@ impl Bounds {
     /// One pass over the batch; `None` when no ray is active. Rays with NaN do not count: they hit nothing.
     #[inline(always)]
     pub fn of<L: Lanes>(rays: &RayBatch) -> Option<Self> {
-        let far = L::splat(f32::INFINITY);
-        let (mut o_min, mut o_max) = (Vec3::new(far, far, far), -Vec3::new(far, far, far));
-        let (mut d_min, mut d_max) = (o_min, o_max);
+        let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
         let mut any = false;
         for at in (0..rays.len).step_by(L::WIDTH) {
             let active = L::load(&rays.t_max[at..]).ge(L::zero());
@@ -98,25 +96,25 @@ impl Bounds {
                 continue;
             }
             any = true;
-            let d = Vec3::load(&rays.direction, at);
-            (d_min, d_max) = widened(d, active, d_min, d_max);
+            directions.include(Vec3::load(&rays.direction, at), active);
             if !rays.common_origin {
-                (o_min, o_max) = widened(Vec3::load(&rays.origin, at), active, o_min, o_max);
+                origins.include(Vec3::load(&rays.origin, at), active);
             }
         }
         if !any {
             return None;
         }
-        let direction = Span::of(d_min, d_max);
-        let origin = if rays.common_origin {
-            Span { middle: rays.first_origin().into(), half: Vec3 { x: 0.0, y: 0.0, z: 0.0 } }
-        } else {
-            Span::of(o_min, o_max)
-        };
+        let origin = if rays.common_origin { Span::at(rays.first_origin()) } else { origins.span() };
+        Some(Self::new(origin, directions.span()))
+    }
+
+    /// From boxes around the origins and the directions.
+    #[inline(always)]
+    pub fn new(origin: Span, direction: Span) -> Self {
         let Vec3 { x, y, z } = origin.half;
         let shared = x == 0.0 && y == 0.0 && z == 0.0;
         let spread = if shared { 0.0 } else { origin.half.dot(origin.half).sqrt() * (1.0 + 1e-5) };
-        Some(Self { origin, direction, spread, cone: Cone::around(&direction) })
+        Self { origin, direction, spread, cone: Cone::around(&direction) }
     }
 
     /// Whether all rays share one origin.
@@ -125,21 +123,50 @@ impl Bounds {
     }
 }
 
-/// A box per lane, widened to hold `v` where `active`.
-#[inline(always)]
-fn widened<L: Lanes>(v: Vec3<L>, active: L::Mask, min: Vec3<L>, max: Vec3<L>) -> (Vec3<L>, Vec3<L>) {
-    let (lower, upper) = (v.min(min), v.max(max));
-    if active.all() { (lower, upper) } else { (lower.select(active, min), upper.select(active, max)) }
+/// A box that grows, per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent<L> {
+    min: Vec3<L>,
+    max: Vec3<L>,
+}
+
+impl<L: Lanes> Extent<L> {
+    /// Around nothing.
+    #[inline(always)]
+    pub fn empty() -> Self {
+        let far = L::splat(f32::INFINITY);
+        let far = Vec3::new(far, far, far);
+        Self { min: far, max: -far }
+    }
+
+    /// Takes in `v` where `active`; NaN is passed over.
+    #[inline(always)]
+    pub fn include(&mut self, v: Vec3<L>, active: L::Mask) {
+        let (min, max) = (v.min(self.min), v.max(self.max));
+        if active.all() {
+            (self.min, self.max) = (min, max);
+        } else {
+            (self.min, self.max) = (min.select(active, self.min), max.select(active, self.max));
+        }
+    }
+
+    /// The box around all lanes.
+    #[inline(always)]
+    pub fn span(&self) -> Span {
+        let Self { min, max } = self;
+        let (x, y, z) = (Span::axis(min.x, max.x), Span::axis(min.y, max.y), Span::axis(min.z, max.z));
+        Span { middle: Vec3 { x: x.0, y: y.0, z: z.0 }, half: Vec3 { x: x.1, y: y.1, z: z.1 } }
+    }
 }
 
 impl Span {
-    /// From the ends per lane.
+    /// A single point.
     #[inline(always)]
-    fn of<L: Lanes>(min: Vec3<L>, max: Vec3<L>) -> Self {
-        let (x, y, z) = (Self::axis(min.x, max.x), Self::axis(min.y, max.y), Self::axis(min.z, max.z));
-        Self { middle: Vec3 { x: x.0, y: y.0, z: z.0 }, half: Vec3 { x: x.1, y: y.1, z: z.1 } }
+    pub fn at(point: glam::Vec3) -> Self {
+        Self { middle: point.into(), half: Vec3 { x: 0.0, y: 0.0, z: 0.0 } }
     }
 
+    /// Middle and half the size along one axis, from the ends per lane.
     #[inline(always)]
     fn axis<L: Lanes>(min: L, max: L) -> (f32, f32) {
         let (min, max) = (min.fold(Lanes::min), max.fold(Lanes::max));

@@ -13,9 +13,11 @@ pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use candidates::Candidates;
 pub use single::{Hit, intersect_one, occluded_one};
 
-use crate::math::Lanes;
+use crate::math::{LaneMask, Lanes};
 use crate::scene::Scene;
-use bounds::Bounds;
+pub(crate) use bounds::{Bounds, Extent, Span};
+use candidates::View;
+pub(crate) use query::Nearest;
 
 /// The nearest hit of every active ray, in packets of `L::WIDTH`.
 ///
@@ -23,10 +25,10 @@ use bounds::Bounds;
 /// rays of the batch. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
     let Some(bounds) = Bounds::of::<L>(rays) else { return };
-    match scratch.gather::<L>(scene, &bounds) {
-        candidates::View::Shared(view) => packets::nearest::<L, _>(&view, rays, hits),
-        candidates::View::Apart(view) => packets::nearest::<L, _>(&view, rays, hits),
-    }
+    nearest_hits::<L>(scene, rays, &bounds, scratch, |at, active, hit| {
+        let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
+        L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
+    });
 }
 
 /// Whether anything lies in the interval of each active ray, in packets of `L::WIDTH`; a packet is left as soon as
@@ -35,8 +37,35 @@ pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, 
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
     let Some(bounds) = Bounds::of::<L>(rays) else { return };
-    match scratch.gather::<L>(scene, &bounds) {
-        candidates::View::Shared(view) => packets::any::<L, _>(&view, rays, blocked),
-        candidates::View::Apart(view) => packets::any::<L, _>(&view, rays, blocked),
+    any_hits::<L>(scene, rays, &bounds, scratch, |at, active, settled| blocked.set(at, active.bits(), settled.bits()));
+}
+
+/// [`intersect()`] for rays whose bounds are known; `take` gets every packet's answer while it is in registers.
+#[inline(always)]
+pub(crate) fn nearest_hits<L: Lanes>(
+    scene: &Scene,
+    rays: &RayBatch,
+    bounds: &Bounds,
+    scratch: &mut Candidates,
+    take: impl FnMut(usize, L::Mask, &Nearest<L>),
+) {
+    match scratch.gather::<L>(scene, bounds) {
+        View::Shared(candidates) => packets::nearest::<L>(candidates, rays, take),
+        View::Apart(candidates) => packets::nearest::<L>(candidates, rays, take),
+    }
+}
+
+/// [`occluded()`] in the same way.
+#[inline(always)]
+pub(crate) fn any_hits<L: Lanes>(
+    scene: &Scene,
+    rays: &RayBatch,
+    bounds: &Bounds,
+    scratch: &mut Candidates,
+    take: impl FnMut(usize, L::Mask, L::Mask),
+) {
+    match scratch.gather::<L>(scene, bounds) {
+        View::Shared(candidates) => packets::any::<L>(candidates, rays, take),
+        View::Apart(candidates) => packets::any::<L>(candidates, rays, take),
     }
 }

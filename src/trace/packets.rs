@@ -5,7 +5,7 @@ use super::query::{Any, Nearest, Query};
 use crate::geometry::plane::{self, SeenPlane};
 use crate::geometry::sphere::{self, SeenSphere};
 use crate::geometry::triangle::{self, SeenTriangle};
-use crate::math::{Blocked, HitBatch, LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 
 /// A record that gives a primitive's terms as seen from the origins of a packet.
 pub trait Seen<L: Lanes> {
@@ -21,7 +21,7 @@ pub trait Candidates<L: Lanes> {
     fn visit<Q: Query<L>>(&self, origin: Vec3<L>, direction: Vec3<L>, t_min: L, query: &mut Q);
 }
 
-impl<L, P, S, T> Candidates<L> for &Lists<P, S, T>
+impl<L, P, S, T> Candidates<L> for Lists<P, S, T>
 where
     L: Lanes,
     P: Seen<L, As = SeenPlane<L>>,
@@ -59,8 +59,13 @@ fn each<L: Lanes, T, Q: Query<L>>(
     }
 }
 
-/// The nearest hits of a batch.
-pub fn nearest<L: Lanes, C: Candidates<L>>(candidates: &C, rays: &RayBatch, hits: &mut HitBatch) {
+/// Gives `take` the nearest hits of every packet with an active ray: its first ray, the active lanes and the answer.
+#[inline(always)]
+pub fn nearest<L: Lanes>(
+    candidates: &impl Candidates<L>,
+    rays: &RayBatch,
+    mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
+) {
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
@@ -71,12 +76,14 @@ pub fn nearest<L: Lanes, C: Candidates<L>>(candidates: &C, rays: &RayBatch, hits
         let mut query = Nearest::new(t_max.select(active, L::splat(f32::NEG_INFINITY)));
         let (o, d) = (Vec3::load(&rays.origin, at), Vec3::load(&rays.direction, at));
         candidates.visit(o, d, L::load(&rays.t_min[at..]), &mut query);
-        L::store_hits(query.t, query.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
+        take(at, active, &query);
     }
 }
 
-/// Whether the rays of a batch are blocked.
-pub fn any<L: Lanes, C: Candidates<L>>(candidates: &C, rays: &RayBatch, blocked: &mut Blocked) {
+/// Gives `take` the blocked lanes of every packet with an active ray: its first ray, the active lanes, the blocked
+/// ones (inactive lanes may be either).
+#[inline(always)]
+pub fn any<L: Lanes>(candidates: &impl Candidates<L>, rays: &RayBatch, mut take: impl FnMut(usize, L::Mask, L::Mask)) {
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
@@ -86,6 +93,6 @@ pub fn any<L: Lanes, C: Candidates<L>>(candidates: &C, rays: &RayBatch, blocked:
         let mut query = Any { settled: !active, t_max };
         let (o, d) = (Vec3::load(&rays.origin, at), Vec3::load(&rays.direction, at));
         candidates.visit(o, d, L::load(&rays.t_min[at..]), &mut query);
-        blocked.set(at, active.bits(), query.settled.bits());
+        take(at, active, query.settled);
     }
 }

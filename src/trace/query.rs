@@ -13,18 +13,20 @@ pub trait Query<L: Lanes> {
 }
 
 /// The nearest hit.
-pub struct Nearest<L> {
+pub struct Nearest<L: Lanes> {
     /// Its distance, or the end of the interval.
     pub t: L,
     /// Its primitive id as bits, or [`NONE`].
     pub primitive: L,
+    /// Where there is one.
+    pub found: L::Mask,
 }
 
 impl<L: Lanes> Nearest<L> {
     /// No hit yet, in intervals that end at `t_max`.
     #[inline(always)]
     pub fn new(t_max: L) -> Self {
-        Self { t: t_max, primitive: L::splat_id(NONE) }
+        Self { t: t_max, primitive: L::splat_id(NONE), found: L::Mask::from_bits(0) }
     }
 }
 
@@ -37,6 +39,7 @@ impl<L: Lanes> Query<L> for Nearest<L> {
     fn hit(&mut self, t: L, inside: L::Mask, primitive: u32) {
         self.t = t.select(inside, self.t);
         self.primitive = L::splat_id(primitive).select(inside, self.primitive);
+        self.found = self.found | inside;
     }
     #[inline(always)]
     fn done(&self) -> bool {
