@@ -14,9 +14,9 @@
 //! A ray that touches the sphere hits it when the computed discriminant is not negative.
 
 use super::{Nearest, Surface};
-use crate::math::{LaneMask, Lanes, Vec3};
+use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3};
 
-/// Spheres, column by column.
+/// Spheres, column by column; centres and radii are padded with zeros to a multiple of [`MOST_LANES`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spheres {
     /// Centres.
@@ -41,21 +41,25 @@ pub struct SeenSphere<L> {
 impl Spheres {
     /// The number of spheres.
     pub fn len(&self) -> usize {
-        self.radius.len()
+        self.material.len()
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.radius.is_empty()
+        self.material.is_empty()
     }
 
     /// Adds a sphere.
     pub fn push(&mut self, center: glam::Vec3, radius: f32, material: u32) {
-        for axis in 0..3 {
-            self.center[axis].push(center[axis]);
-        }
-        self.radius.push(radius);
+        let i = self.len();
         self.material.push(material);
+        let padded = self.len().next_multiple_of(MOST_LANES);
+        for (column, value) in
+            self.center.iter_mut().chain([&mut self.radius]).zip([center.x, center.y, center.z, radius])
+        {
+            column.resize(padded, 0.0);
+            column[i] = value;
+        }
     }
 
     /// Sphere `i`'s centre.

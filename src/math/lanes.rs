@@ -103,16 +103,23 @@ pub trait Lanes:
     fn exponent_and_mantissa(self) -> (Self, Self);
     /// 2^n for self = n + 1.5 · 2²³ with a whole n from −126 to 127.
     fn power_of_two(self) -> Self;
-    /// Folds the lanes with `f`, from lane 0 up.
-    fn fold(self, f: impl Fn(f32, f32) -> f32) -> f32;
+    /// The least lane; unspecified where one is NaN.
+    fn least(self) -> f32;
+    /// The greatest lane; unspecified where one is NaN.
+    fn greatest(self) -> f32 {
+        -(-self).least()
+    }
 }
 
 /// a · b + c as [`Lanes::mul_add`] does it in this build; `f32::mul_add` would call a slow library function
 /// where there is no FMA instruction.
 #[inline(always)]
-pub fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
+fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
 }
+
+/// The widest of the types: columns that are loaded from any place are padded to a multiple of it.
+pub const MOST_LANES: usize = 8;
 
 impl LaneMask for bool {
     #[inline(always)]
@@ -215,7 +222,7 @@ impl Lanes for f32 {
         f32::from_bits((self.to_bits() << 23).wrapping_add(ONE as u32))
     }
     #[inline(always)]
-    fn fold(self, _f: impl Fn(f32, f32) -> f32) -> f32 {
+    fn least(self) -> f32 {
         self
     }
 }
@@ -346,9 +353,17 @@ macro_rules! wide_lanes {
                 cast::<$signed, $float>((cast::<$float, $signed>(self) << 23) + $signed::splat(ONE))
             }
             #[inline(always)]
-            fn fold(self, f: impl Fn(f32, f32) -> f32) -> f32 {
-                let lanes = self.to_array();
-                lanes[1..].iter().fold(lanes[0], |a, &b| f(a, b))
+            fn least(self) -> f32 {
+                // Halves first: the shortest chain of operations that wait for each other.
+                let mut lanes = self.to_array();
+                let mut left = $width / 2;
+                while left > 0 {
+                    for i in 0..left {
+                        lanes[i] = Lanes::min(lanes[i + left], lanes[i]);
+                    }
+                    left /= 2;
+                }
+                lanes[0]
             }
         }
     };

@@ -9,6 +9,6 @@ mod vec3;
 
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
-pub use lanes::{LaneMask, Lanes, fused_mul_add};
+pub use lanes::{LaneMask, Lanes, MOST_LANES};
 pub use power::powf;
 pub use vec3::Vec3;

@@ -169,7 +169,7 @@ impl Span {
     /// Middle and half the size along one axis, from the ends per lane.
     #[inline(always)]
     fn axis<L: Lanes>(min: L, max: L) -> (f32, f32) {
-        let (min, max) = (min.fold(Lanes::min), max.fold(Lanes::max));
+        let (min, max) = (min.least(), max.greatest());
         // Where both ends are equal the middle is exactly that value.
         let middle = if min == max { min } else { 0.5 * min + 0.5 * max };
         // Counted from the rounded middle, so that both ends stay inside.

@@ -116,21 +116,15 @@ impl<P, S, T> Lists<P, S, T> {
                 let origin = Vec3::splat(bounds.origin.middle.into());
                 let [x, y, z] = &scene.spheres.center;
                 let count = scene.spheres.len();
-                let whole = count - count % L::WIDTH;
-                for at in (0..whole).step_by(L::WIDTH) {
+                for at in (0..count).step_by(L::WIDTH) {
                     let center = Vec3::new(L::load(&x[at..]), L::load(&y[at..]), L::load(&z[at..]));
                     let radius = L::load(&scene.spheres.radius[at..]) + L::splat(bounds.spread);
-                    let mut met = (!cone.misses(center - origin, radius)).bits();
+                    let real = u32::MAX >> (32 - (count - at).min(L::WIDTH));
+                    let mut met = (!cone.misses(center - origin, radius)).bits() & real;
                     while met != 0 {
                         let i = at + met.trailing_zeros() as usize;
                         self.spheres.push((sphere(i), first + i as u32));
                         met &= met - 1;
-                    }
-                }
-                for i in whole..count {
-                    let f = Vec3::from(scene.spheres.center(i)) - bounds.origin.middle;
-                    if !cone.misses::<f32>(f, scene.spheres.radius[i] + bounds.spread) {
-                        self.spheres.push((sphere(i), first + i as u32));
                     }
                 }
             }
