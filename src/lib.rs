@@ -1,4 +1,72 @@
 //! A CPU ray tracer that traces SIMD packets and proves its answers against a scalar reference.
+//!
+//! # The way of a ray
+//!
+//! ```text
+//! TOML ──scene::parse──▶ Description ──scene::compile──▶ Scene: SoA arrays and a Plan
+//!                             │                            │ a tile of 16 × 16 eye rays      render
+//!                             │                            ▼
+//!                             │                ┌──▶ intersect: the nearest hits              trace
+//!                             │                │    occluded: a shadow ray a hit and light   trace
+//!                             │     next wave  │           ▼
+//!                             │                └─── light, and the mirrors' rays, compacted  shade
+//!                             │                            ▼
+//!                             │                          Film ──▶ window, PNG, EXR           render, viewer
+//!                             ▼
+//!                reference: the same picture, one ray at a time in f64 ──▶ measure::verify compares
+//! ```
+//!
+//! ```
+//! use raypacket::{measure::verify::verify, render::{Camera, Film, Kernel, render}, scene};
+//!
+//! let description = scene::parse(r#"
+//!     camera = { eye = [0, 0, 3], look_at = [0, 0, 0] }
+//!     sky.color = [0.1, 0.2, 0.3]
+//!     light = [{ position = [0, 0, 3], power = [50.265, 50.265, 50.265] }] # 4 π 2²: an irradiance of 1, 2 away
+//!     materials.red.color = [0.8, 0.0, 0.0]
+//!     sphere = [{ center = [0, 0, 0], radius = 1, material = "red" }]
+//! "#, "red.toml".as_ref())?;
+//! let compiled = scene::compile(&description)?;
+//! let mut film = Film::new(65, 65);
+//! render(&compiled, &Camera::new(&description.camera, 1.0), Kernel::X8, 1, &mut film, &|_| ());
+//!
+//! assert_eq!(film.pixels[0], [0.1, 0.2, 0.3]); // the corner shows the sky
+//! let [r, g, b] = film.pixels[65 * 65 / 2]; // the middle faces the light
+//! assert!((r - 0.8).abs() < 1e-4 && g == 0.0 && b == 0.0);
+//! assert!(verify(&description, &Kernel::ALL, 65, 65).pass); // and the reference says so too
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # The house
+//!
+//! Imports run downward in this list; nothing imports from above itself. [`reference`](mod@reference) alone stands
+//! apart: it may import the [`scene::Description`] and what that holds, and nothing else.
+//!
+//! - [`viewer`]: the window: 3D view, 2D slice, controls, overlay
+//! - [`measure`]: rays a second, and how right they are
+//! - [`render`]: camera, tiles, film, tone mapping, picture files
+//! - [`shade`]: lights, materials and mirrors, in waves
+//! - [`trace`]: the two queries, over a compiled scene
+//! - [`scene`]: what the user wrote, its readers and rules, the built-in scenes, `compile`, the plan
+//! - [`geometry`]: a file a primitive: storage, tests, surface
+//! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
+//! - [`reference`](mod@reference): the scalar tracer that the others are checked against
+//! - [`files`]: writing files whole or not at all; used by `render` and the command line
+//!
+//! # The rules
+//!
+//! - **Two queries, no more**: [`trace::intersect()`], the nearest hit, and [`trace::occluded()`], any hit. A
+//!   primitive states its test once, for both.
+//! - **One kernel text for all widths**: generic over [`math::Lanes`]. In one build x1, x4 and x8 give the same bits,
+//!   in hits and pictures; so do any number of threads and any order of the tiles.
+//! - **The reference shares nothing but the description**, so that no fault of a kernel hides in its own check.
+//! - **At equal distance the lowest primitive id wins.** Ids count planes, then spheres, then triangles.
+//! - **[`math::Lanes::mul_add`] is fused on every width or on none**: fused in a build with FMA instructions, two
+//!   roundings in a build without. So two builds may differ, each within the bounds that
+//!   [`measure::verify`] checks.
+//! - **One place says where secondary rays start and end**: `shade/spawn.rs`, by a bound on the rounding, not by an
+//!   epsilon that somebody chose. Shadow rays start at the light, or at the point when the light is too far from
+//!   something small ([`scene::ShadowStart`]).
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
