@@ -73,17 +73,12 @@ impl Target {
     /// # Errors
     /// When `write` fails, or the file cannot be made, flushed or renamed.
     pub fn write(&self, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<(), FileError> {
-        let fill = |file: &File| {
-            let mut buffer = BufWriter::new(file);
-            write(&mut buffer)?;
-            buffer.flush()
-        };
         if self.special {
             let file = File::options().write(true).open(&self.real).map_err(|e| self.error(&e))?;
-            return fill(&file).map_err(|e| self.error(&e));
+            return fill(&file, write).map_err(|e| self.error(&e));
         }
         let temporary = self.temporary()?;
-        fill(temporary.as_file()).map_err(|e| self.error(&e))?;
+        fill(temporary.as_file(), write).map_err(|e| self.error(&e))?;
         temporary.persist(&self.real).map_err(|e| self.error(&e.error))?;
         Ok(())
     }
@@ -97,17 +92,53 @@ impl Target {
     }
 
     fn temporary(&self) -> Result<NamedTempFile, FileError> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".raypacket-").suffix(".tmp");
-        // Temporary files are private by default, but this one becomes an ordinary file: the umask decides.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(self.folder()).map_err(|e| self.error(&e))
+        temporary_in(self.folder()).map_err(|e| self.error(&e))
     }
 
     fn error(&self, error: &io::Error) -> FileError {
         FileError { path: self.path.clone(), problem: format!("cannot be written: {}", reason(error)) }
     }
+}
+
+fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".raypacket-").suffix(".tmp");
+    // Temporary files are private by default, but this one becomes an ordinary file: the umask decides.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
+
+fn fill(file: &File, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
+    let mut buffer = BufWriter::new(file);
+    write(&mut buffer)?;
+    buffer.flush()
+}
+
+/// Writes a new file in a folder (`""` is the current one) under the first of the names `name(1)`, `name(2)` … that
+/// is free, and gives its path; nothing is ever overwritten.
+///
+/// # Errors
+/// When `write` fails or the file cannot be made.
+pub fn write_numbered(
+    folder: &Path,
+    name: impl Fn(u32) -> String,
+    write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+) -> Result<PathBuf, FileError> {
+    let error =
+        |e: &io::Error| FileError { path: folder.join(name(1)), problem: format!("cannot be written: {}", reason(e)) };
+    let here = if folder == Path::new("") { Path::new(".") } else { folder };
+    let mut file = temporary_in(here).map_err(|e| error(&e))?;
+    fill(file.as_file(), write).map_err(|e| error(&e))?;
+    for number in 1..=u32::MAX {
+        let path = folder.join(name(number));
+        match file.persist_noclobber(&path) {
+            Ok(_) => return Ok(path),
+            Err(taken) if taken.error.kind() == io::ErrorKind::AlreadyExists => file = taken.file,
+            Err(failed) => return Err(error(&failed.error)),
+        }
+    }
+    Err(error(&io::ErrorKind::AlreadyExists.into()))
 }
 
 /// An error's text without the temporary file's name, which `tempfile` adds and would only confuse.

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Scene files (.toml, .nff, .obj) or built-in scenes [default: all built-in scenes]
+    /// Scene files (.toml) or built-in scenes [default: all built-in scenes]
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
     /// The width and height in pixels of the image that is compared

@@ -1,4 +1,4 @@
-//! One file per primitive: storage, tests by named methods, surface point and normal, bounds.
+//! One file per primitive: storage, tests by named methods, surface point and normal.
 //!
 //! A test takes what depends on the ray's origin alone apart (`Seen…`), since rays that share their origin share
 //! it too; computed once for a batch or in every lane, it is the same arithmetic and so the same bits.

@@ -8,8 +8,8 @@
 //!   **Only from outside**: it gives the entry point alone, so from inside it finds nothing. Cancels like `quadratic`.
 //! - [`stable`]: the default. Haines, Günther, Akenine-Möller, *Precision Improvements for Ray/Sphere Intersection*,
 //!   Ray Tracing Gems (2019), ch. 7: discriminant r² − |f − b d|², and the root that cancels from the other by c / q.
-//!   The silhouette is off by at most 5 ε |f|, t by 8 ε t + 4 ε |f|² / (r cos θ) at incidence θ … right from
-//!   outside, inside and on the sphere, where a ray that leaves finds nothing and one that enters the far side.
+//!   The silhouette is off by at most 5 ε |f|, t by 8 ε t + 4 ε |f|² / (r cos θ) at incidence θ (ε = 2⁻²⁴). Right
+//!   from outside, inside and on the sphere: a ray that leaves the surface hits nothing, one that enters the far side.
 //!
 //! A ray that touches the sphere hits it when the computed discriminant is not negative.
 

@@ -141,7 +141,7 @@ fn time_query(scene: &Scene, query: &str, shadow: bool, batches: &[RayBatch]) ->
     let mut answers: Vec<Answers> = Kernel::ALL.iter().map(|_| Answers::new(shadow, batches.len())).collect();
     // A short set is traced over and over, so that the clock is not what is measured.
     let passes = (LEAST_RAYS / active.max(1)).max(1);
-    let times = take_turns(|kernel| (0..passes).for_each(|_| answers[kernel as usize].fill(scene, kernel, batches)));
+    let times = take_turns(|kernel| answers[kernel as usize].fill(scene, kernel, batches, passes));
     let same = answers.windows(2).all(|pair| pair[0] == pair[1]);
     let measured = Kernel::ALL.iter().zip(times).zip(&answers).map(|((kernel, times), answers)| {
         let (hits, sum_t) = answers.sum(batches);
@@ -203,9 +203,9 @@ impl Answers {
         }
     }
 
-    /// Answers all batches, in parallel where the pool has more than one thread.
-    fn fill(&mut self, scene: &Scene, kernel: Kernel, batches: &[RayBatch]) {
-        with_lanes!(kernel, fill(self, scene, batches));
+    /// Answers all batches `passes` times over.
+    fn fill(&mut self, scene: &Scene, kernel: Kernel, batches: &[RayBatch], passes: u64) {
+        with_lanes!(kernel, fill(self, scene, batches, passes));
     }
 
     /// The number of hits and the sum of their distances.
@@ -221,23 +221,37 @@ impl Answers {
     }
 }
 
-fn fill<L: Lanes>(answers: &mut Answers, scene: &Scene, batches: &[RayBatch]) {
+fn fill<L: Lanes>(answers: &mut Answers, scene: &Scene, batches: &[RayBatch], passes: u64) {
     match answers {
-        Answers::Nearest(hits) => each(batches, hits, |rays, hits, scratch| intersect::<L>(scene, rays, hits, scratch)),
-        Answers::Any(blocked) => each(batches, blocked, |rays, b, scratch| occluded::<L>(scene, rays, b, scratch)),
+        Answers::Nearest(hits) => each(batches, hits, passes, |rays, hits, scratch| {
+            intersect::<L>(scene, rays, hits, scratch);
+        }),
+        Answers::Any(blocked) => each(batches, blocked, passes, |rays, blocked, scratch| {
+            occluded::<L>(scene, rays, blocked, scratch);
+        }),
     }
 }
 
-fn each<A: Send>(batches: &[RayBatch], answers: &mut [A], query: impl Fn(&RayBatch, &mut A, &mut Candidates) + Sync) {
-    if rayon::current_num_threads() == 1 {
-        let mut scratch = Candidates::default();
-        batches.iter().zip(answers).for_each(|(rays, answer)| query(rays, answer, &mut scratch));
-    } else {
-        batches
-            .par_iter()
-            .zip(answers)
-            .with_min_len(16)
-            .for_each_init(Candidates::default, |scratch, (rays, answer)| query(rays, answer, scratch));
+/// Puts all batches through the query `passes` times, in parallel where the pool has more than one thread; a thread
+/// then does all passes over its share, as the threads of a frame work on their own tiles.
+fn each<A: Send>(
+    batches: &[RayBatch],
+    answers: &mut [A],
+    passes: u64,
+    query: impl Fn(&RayBatch, &mut A, &mut Candidates) + Sync,
+) {
+    let share = |scratch: &mut Candidates, (batches, answers): (&[RayBatch], &mut [A])| {
+        for _ in 0..passes {
+            batches.iter().zip(answers.iter_mut()).for_each(|(rays, answer)| query(rays, answer, scratch));
+        }
+    };
+    match rayon::current_num_threads() {
+        1 => share(&mut Candidates::default(), (batches, answers)),
+        threads => {
+            let size = batches.len().div_ceil(8 * threads).max(1);
+            let shares = batches.par_chunks(size).zip(answers.par_chunks_mut(size));
+            shares.for_each_init(Candidates::default, share);
+        }
     }
 }
 

@@ -13,7 +13,7 @@ const MOST: usize = 96;
 pub struct Streams {
     /// From the eye.
     pub primary: Vec<RayBatch>,
-    /// From the lights.
+    /// Between hit points and lights, of all waves.
     pub shadow: Vec<RayBatch>,
     /// From mirrors, of all waves.
     pub reflection: Vec<RayBatch>,

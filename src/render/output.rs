@@ -77,8 +77,16 @@ pub fn write_film(film: &Film, format: Format, target: &Target) -> Result<(), Fi
 /// # Errors
 /// When the file cannot be written.
 pub fn write_display(pixels: &[u32], width: usize, target: &Target) -> Result<(), FileError> {
+    target.write(|to| encode_display(to, pixels, width))
+}
+
+/// Encodes 0RGB pixels, `width` of them in a row, as PNG.
+///
+/// # Errors
+/// When there is no picture, or `to` fails.
+pub fn encode_display(to: &mut (impl Write + Seek), pixels: &[u32], width: usize) -> io::Result<()> {
     let rgb: Vec<[u8; 3]> = pixels.iter().map(|&p| split(p)).collect();
-    target.write(|to| png(to, &rgb, width))
+    png(to, &rgb, width)
 }
 
 /// Writes what the eye's rays hit, `width` of them in a row; see the table above.

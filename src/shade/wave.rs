@@ -59,7 +59,7 @@ impl Default for Wave {
 pub trait Observer {
     /// The eye rays.
     fn primary(&mut self, _rays: &RayBatch) {}
-    /// One light's shadow rays, from the light.
+    /// One light's shadow rays.
     fn shadow(&mut self, _rays: &RayBatch) {}
     /// A wave of mirrored rays.
     fn reflection(&mut self, _rays: &RayBatch) {}

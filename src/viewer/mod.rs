@@ -24,13 +24,13 @@ mod slice;
 mod text;
 mod window;
 
+use crate::files::FileError;
 use crate::{
     render::Kernel,
     scene::{Description, Scene},
 };
 use frame::{Frame, Request};
 use std::{
-    io,
     path::PathBuf,
     sync::mpsc::{self, Receiver, Sender},
     thread,
@@ -93,13 +93,8 @@ pub enum ViewerError {
     #[error("the window was closed before the last frame")]
     Closed,
     /// The screenshot could not be written.
-    #[error("{}: {source}", path.display())]
-    Screenshot {
-        /// Where to.
-        path: PathBuf,
-        /// Why not.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Screenshot(#[from] FileError),
 }
 
 /// Opens a window on a scene and stays until the user quits, or [`Options::frames`] have been shown. `scene` is

@@ -1,63 +1,26 @@
 //! Pictures saved as PNG files, whole or not at all.
 
+use std::path::{Path, PathBuf};
+
 use super::draw::Picture;
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
-use std::{
-    io::{self, BufWriter, Write},
-    path::{Path, PathBuf},
-};
-use tempfile::NamedTempFile;
+use crate::files::{FileError, Target, write_numbered};
+use crate::render::output::{encode_display, write_display};
 
 /// Saves a picture under a name, over whatever was there.
 ///
 /// # Errors
 /// When the picture is empty or the file cannot be written; what was there before is then still there.
-pub fn save(picture: &Picture, path: &Path) -> io::Result<()> {
-    // Path::parent of a bare name is "", which names no folder.
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    written(picture, folder)?.persist(path)?;
-    Ok(())
+pub fn save(picture: &Picture, path: &Path) -> Result<(), FileError> {
+    write_display(&picture.pixels, picture.width, &Target::new(path)?)
 }
 
 /// Saves a picture in a folder as the first of raypacket-001.png, raypacket-002.png … that is free; gives its path.
 ///
 /// # Errors
 /// When the picture is empty or the folder cannot be written to.
-pub fn save_numbered(picture: &Picture, folder: &Path) -> io::Result<PathBuf> {
-    let mut file = written(picture, folder)?;
-    for number in 1..=u32::MAX {
-        let path = folder.join(format!("raypacket-{number:03}.png"));
-        match file.persist_noclobber(&path) {
-            Ok(_) => return Ok(path),
-            Err(taken) if taken.error.kind() == io::ErrorKind::AlreadyExists => file = taken.file,
-            Err(failed) => return Err(failed.error),
-        }
-    }
-    Err(io::ErrorKind::AlreadyExists.into())
-}
-
-/// A temporary file in the folder that holds the finished PNG.
-fn written(picture: &Picture, folder: &Path) -> io::Result<NamedTempFile> {
-    if picture.pixels.is_empty() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the picture is empty"));
-    }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".raypacket-").suffix(".png");
-    // Temporary files are for their owner only; a picture gets what the user's umask says, as any other file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder)?;
-    let bytes: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_be_bytes().into_iter().skip(1)).collect();
-    let mut writer = BufWriter::new(&file);
-    PngEncoder::new(&mut writer)
-        .write_image(&bytes, picture.width as u32, picture.height as u32, ExtendedColorType::Rgb8)
-        .map_err(|error| match error {
-            image::ImageError::IoError(error) => error,
-            other => io::Error::other(other),
-        })?;
-    writer.flush()?;
-    drop(writer);
-    Ok(file)
+pub fn save_numbered(picture: &Picture, folder: &Path) -> Result<PathBuf, FileError> {
+    let name = |number| format!("raypacket-{number:03}.png");
+    write_numbered(folder, name, |to| encode_display(to, &picture.pixels, picture.width))
 }
 
 #[cfg(test)]

@@ -105,7 +105,7 @@ fn script(
         present(window, &picture)?;
     }
     let Some(path) = &options.screenshot else { return Ok(()) };
-    screenshot::save(&picture, path).map_err(|source| ViewerError::Screenshot { path: path.clone(), source })
+    Ok(screenshot::save(&picture, path)?)
 }
 
 fn overlay<'a>(description: &'a Description, frame: &Frame) -> Overlay<'a> {
@@ -179,7 +179,6 @@ fn save(view: &Picture) -> String {
     }
     match screenshot::save_numbered(view, Path::new("")) {
         Ok(path) => format!("saved {}", path.display()),
-        // The kind's text alone: the error's own names the temporary file, which says nothing to the user.
-        Err(error) => format!("not saved: {}", error.kind()),
+        Err(error) => format!("not saved: {}", error.problem),
     }
 }
