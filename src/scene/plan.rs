@@ -89,7 +89,7 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let [planes, spheres, triangles] = self.primitives;
         if planes > 0 {
-            writeln!(f, "planes      {planes}: unbounded, tested by every packet")?;
+            writeln!(f, "planes      {planes}: unbounded; left out where no ray of a batch turns to it")?;
         }
         if spheres > 0 {
             writeln!(f, "spheres     {spheres}: method `stable`, right from inside, on and far from a sphere")?;
