@@ -9,7 +9,9 @@ mod path;
 mod spawn;
 mod surface;
 mod wave;
+mod whitted;
 
 pub use path::{Segment, SegmentKind, path};
 pub(crate) use surface::facing_normal;
-pub use wave::{Counts, Observer, Workspace, trace_waves};
+pub use wave::Observer;
+pub use whitted::{Counts, Workspace, trace_waves};

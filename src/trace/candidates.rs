@@ -1,7 +1,7 @@
 //! The primitives that a batch of rays may meet, gathered into records that lie one after another.
 
 use super::bounds::Bounds;
-use super::packets::Seen;
+use super::seen::{PlaneRecord, SphereRecord, TriangleRecord};
 use crate::geometry::plane::SeenPlane;
 use crate::geometry::sphere::SeenSphere;
 use crate::geometry::triangle::SeenTriangle;
@@ -10,28 +10,6 @@ use crate::scene::Scene;
 
 /// A primitive's record and its id.
 pub type Record<T> = (T, u32);
-
-/// A sphere as stored: for rays that do not share their origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SphereRecord {
-    center: Vec3<f32>,
-    radius: f32,
-}
-
-/// A triangle as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct TriangleRecord {
-    v0: Vec3<f32>,
-    e1: Vec3<f32>,
-    e2: Vec3<f32>,
-}
-
-/// A plane as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct PlaneRecord {
-    normal: Vec3<f32>,
-    distance: f32,
-}
 
 /// Room for the candidates of a batch, kept between batches; one a thread.
 #[derive(Clone, Debug, Default)]
@@ -133,54 +111,5 @@ impl<P, S, T> Lists<P, S, T> {
         let first = scene.first_triangle();
         let triangles = (0..scene.triangles.len()).filter(|&i| !bounds.miss_triangle(&scene.triangles, i));
         self.triangles.extend(triangles.map(|i| (triangle(i), first + i as u32)));
-    }
-}
-
-impl<L: Lanes> Seen<L> for SeenPlane<f32> {
-    type As = SeenPlane<L>;
-    #[inline(always)]
-    fn from(&self, _origin: Vec3<L>) -> SeenPlane<L> {
-        self.splat()
-    }
-}
-
-impl<L: Lanes> Seen<L> for SeenSphere<f32> {
-    type As = SeenSphere<L>;
-    #[inline(always)]
-    fn from(&self, _origin: Vec3<L>) -> SeenSphere<L> {
-        self.splat()
-    }
-}
-
-impl<L: Lanes> Seen<L> for SeenTriangle<f32> {
-    type As = SeenTriangle<L>;
-    #[inline(always)]
-    fn from(&self, _origin: Vec3<L>) -> SeenTriangle<L> {
-        self.splat()
-    }
-}
-
-impl<L: Lanes> Seen<L> for PlaneRecord {
-    type As = SeenPlane<L>;
-    #[inline(always)]
-    fn from(&self, origin: Vec3<L>) -> SeenPlane<L> {
-        SeenPlane::new(Vec3::splat(self.normal.into()), L::splat(self.distance), origin)
-    }
-}
-
-impl<L: Lanes> Seen<L> for SphereRecord {
-    type As = SeenSphere<L>;
-    #[inline(always)]
-    fn from(&self, origin: Vec3<L>) -> SeenSphere<L> {
-        SeenSphere::new(Vec3::splat(self.center.into()), L::splat(self.radius), origin)
-    }
-}
-
-impl<L: Lanes> Seen<L> for TriangleRecord {
-    type As = SeenTriangle<L>;
-    #[inline(always)]
-    fn from(&self, origin: Vec3<L>) -> SeenTriangle<L> {
-        let [v0, e1, e2] = [self.v0, self.e1, self.e2].map(|v| Vec3::splat(v.into()));
-        SeenTriangle::new(v0, e1, e2, origin)
     }
 }

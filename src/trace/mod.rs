@@ -7,6 +7,7 @@ mod bounds;
 mod candidates;
 mod packets;
 mod query;
+mod seen;
 mod single;
 
 pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};

@@ -2,18 +2,11 @@
 
 use super::candidates::{Lists, Record};
 use super::query::{Any, Nearest, Query};
+use super::seen::Seen;
 use crate::geometry::plane::{self, SeenPlane};
 use crate::geometry::sphere::{self, SeenSphere};
 use crate::geometry::triangle::{self, SeenTriangle};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
-
-/// A record that gives a primitive's terms as seen from the origins of a packet.
-pub trait Seen<L: Lanes> {
-    /// The terms.
-    type As;
-    /// As seen from `origin`.
-    fn from(&self, origin: Vec3<L>) -> Self::As;
-}
 
 /// Everything a packet may meet.
 pub trait Candidates<L: Lanes> {
