@@ -27,7 +27,7 @@ impl Pcg {
 
     /// From 0 up to but not including `n`.
     pub fn below(&mut self, n: usize) -> usize {
-        (u64::from(self.bits()) * n as u64 >> 32) as usize
+        ((u64::from(self.bits()) * n as u64) >> 32) as usize
     }
 
     pub fn chance(&mut self, p: f32) -> bool {

@@ -41,7 +41,7 @@ pub enum Answer {
 
 impl Answer {
     pub fn new(scene: &Scene, ray: &Ray) -> Self {
-        if !(ray.t_max >= 0.0) {
+        if ray.t_max < 0.0 || ray.t_max.is_nan() {
             Self::Untouched
         } else if ray.origin.is_finite() && ray.direction.is_finite() {
             let (t, id) = nearest(scene, ray);

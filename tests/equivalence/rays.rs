@@ -118,15 +118,15 @@ fn any_primitive(scene: &Scene, rng: &mut Pcg) -> Option<u32> {
 /// Anywhere in the scene, often on a primitive or at the world's origin, sometimes far off.
 fn start(scene: &Scene, place: Place, rng: &mut Pcg) -> Vec3 {
     match rng.below(8) {
-        0 if scene.spheres.len() > 0 => {
+        0 if !scene.spheres.is_empty() => {
             let i = rng.below(scene.spheres.len());
             scene.spheres.center(i) + rng.unit() * scene.spheres.radius[i]
         }
-        1 if scene.triangles.len() > 0 => {
+        1 if !scene.triangles.is_empty() => {
             let [a, e1, e2] = scene.triangles.corner_and_edges(rng.below(scene.triangles.len()));
             rng.pick(&[a, a + e1, a + e1 * 0.25 + e2 * 0.5])
         }
-        2 if scene.planes.len() > 0 => {
+        2 if !scene.planes.is_empty() => {
             let i = rng.below(scene.planes.len());
             let (n, p) = (scene.planes.normal(i), place.point(rng));
             p - n * ((n.dot(p) + scene.planes.distance[i]) / n.length_squared())

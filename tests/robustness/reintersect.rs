@@ -10,11 +10,14 @@ use crate::{SCALES, upward};
 /// Eye rays a primitive, scale and place.
 const RAYS: usize = 1000;
 
+/// A random point of a surface, and the normal there.
+type PointAndNormal = dyn Fn(&mut Pcg) -> (Vec3, Vec3);
+
 /// One mirroring primitive, and the rays that look at it.
 struct Lone {
     scene: Scene,
     /// A point of the surface and its normal, on the side where the lights are.
-    point: Box<dyn Fn(&mut Pcg) -> (Vec3, Vec3)>,
+    point: Box<PointAndNormal>,
     scale: f32,
     /// Whether the eye may be on the other side as well.
     two_sided: bool,
