@@ -1,0 +1,118 @@
+//! What several test programs share: random numbers that are the same everywhere, and small scenes.
+#![allow(dead_code, reason = "every test program compiles this, and none uses all of it")]
+
+use glam::{Vec3, vec3};
+use raypacket::render::{Camera, Film, Kernel, render};
+use raypacket::scene::{Description, Light, Material, Mesh, Pigment, Plane, Scene, Sphere, builtins, compile, load};
+
+/// ε: half the distance from 1 to the next `f32`.
+pub const ROUNDOFF: f64 = 1.0 / (1u64 << 24) as f64;
+
+/// PCG-XSH-RR (O'Neill 2014): the same numbers on every machine.
+#[derive(Clone, Debug)]
+pub struct Pcg(u64);
+
+impl Pcg {
+    pub fn new(seed: u64) -> Self {
+        let mut rng = Self(seed.wrapping_add(0x9e37_79b9_7f4a_7c15));
+        rng.bits();
+        rng
+    }
+
+    pub fn bits(&mut self) -> u32 {
+        let old = self.0;
+        self.0 = old.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((((old >> 18) ^ old) >> 27) as u32).rotate_right((old >> 59) as u32)
+    }
+
+    /// From 0 up to but not including `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((u64::from(self.bits()) * n as u64) >> 32) as usize
+    }
+
+    pub fn chance(&mut self, p: f32) -> bool {
+        self.range(0.0, 1.0) < p
+    }
+
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
+    }
+
+    pub fn range(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * ((self.bits() >> 8) as f32 / (1 << 24) as f32)
+    }
+
+    /// Within the cube from −1 to 1.
+    pub fn cube(&mut self) -> Vec3 {
+        vec3(self.range(-1.0, 1.0), self.range(-1.0, 1.0), self.range(-1.0, 1.0))
+    }
+
+    /// Evenly on the unit sphere.
+    pub fn unit(&mut self) -> Vec3 {
+        loop {
+            let v = self.cube();
+            if (0.01..=1.0).contains(&v.length_squared()) {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+/// A matt or mirroring white material.
+pub fn white(reflectance: f32) -> Material {
+    Material {
+        name: format!("white {reflectance}"),
+        pigment: Pigment::Color(Vec3::ONE),
+        reflectance,
+        specular: 0.0,
+        shininess: 1.0,
+    }
+}
+
+/// A scene without anything: a black sky, one matt white material, light that does not fall off.
+pub fn empty() -> Description {
+    let mut scene = Description { name: "test".into(), materials: vec![white(0.0)], ..Description::default() };
+    scene.settings.attenuation = false;
+    scene
+}
+
+pub fn sphere(center: Vec3, radius: f32) -> Sphere {
+    Sphere { center, radius, material: 0 }
+}
+
+pub fn plane(normal: Vec3, distance: f32) -> Plane {
+    Plane { normal, distance, material: 0 }
+}
+
+/// Triangles that share no vertex.
+pub fn mesh(corners: &[[Vec3; 3]]) -> Mesh {
+    let triangles = (0..corners.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Mesh { positions: corners.as_flattened().to_vec(), triangles, material: 0 }
+}
+
+/// A light of power 1 in every channel.
+pub fn light(position: Vec3) -> Light {
+    Light { position, power: Vec3::ONE }
+}
+
+/// The descriptions of all built-in scenes.
+pub fn all_builtins() -> Vec<Description> {
+    builtins().iter().map(|b| load(b.name).expect("a built-in scene")).collect()
+}
+
+pub fn compiled(description: &Description) -> Scene {
+    compile(description).expect("a sound scene")
+}
+
+/// One sample a pixel.
+pub fn picture(description: &Description, kernel: Kernel, width: usize, height: usize) -> Film {
+    let camera = Camera::new(&description.camera, width as f32 / height as f32);
+    let mut film = Film::new(width, height);
+    render(&compiled(description), &camera, kernel, 1, &mut film, &|_| ());
+    film
+}
+
+/// A film to the bit, so that NaN equals itself and −0 is not 0.
+pub fn film_bits(film: &Film) -> Vec<u32> {
+    film.pixels.as_flattened().iter().map(|c| c.to_bits()).collect()
+}

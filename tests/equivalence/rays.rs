@@ -1,0 +1,221 @@
+//! The rays of the matrix: batches that are easy, hard, or partly broken.
+
+use glam::{Vec3, vec3};
+use raypacket::math::BATCH;
+use raypacket::scene::Scene;
+use raypacket::trace::{NONE, RayBatch};
+
+use crate::common::Pcg;
+use crate::oracle::{Answer, Ray};
+use crate::scenes::Place;
+
+/// Where the rays of a batch start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origins {
+    /// At one point, and the batch says so: whatever else its columns hold must not be read.
+    Flagged,
+    /// At one point, unsaid.
+    Shared,
+    /// Close together.
+    Near,
+    /// Anywhere.
+    Apart,
+}
+
+/// Where they go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Directions {
+    /// Within a cone, from narrow to wide.
+    Coherent,
+    /// Anywhere.
+    Random,
+    /// To the outlines of primitives, and along planes, where culling and tests are decided by a few ε.
+    Grazing,
+    /// Along axes and diagonals, with 0 and −0.
+    Axes,
+}
+
+/// A kind of batch.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    pub origins: Origins,
+    pub directions: Directions,
+    /// Whether some rays have NaN and infinite components.
+    pub broken: bool,
+}
+
+impl Kind {
+    /// Every combination.
+    pub fn all() -> impl Iterator<Item = Kind> {
+        let origins = [Origins::Flagged, Origins::Shared, Origins::Near, Origins::Apart];
+        let directions = [Directions::Coherent, Directions::Random, Directions::Grazing, Directions::Axes];
+        origins.into_iter().flat_map(move |origins| {
+            let with = move |directions| [false, true].map(|broken| Kind { origins, directions, broken });
+            directions.into_iter().flat_map(with)
+        })
+    }
+}
+
+/// What the rays of one batch have in common.
+struct Bundle {
+    base: Vec3,
+    /// How far from `base` rays start.
+    spread: f32,
+    axis: Vec3,
+    width: f32,
+    /// The primitive whose outline all rays go for, if they do.
+    target: Option<u32>,
+}
+
+/// A random batch of `len` rays.
+pub fn batch(kind: Kind, len: usize, scene: &Scene, place: Place, rng: &mut Pcg) -> RayBatch {
+    let bundle = bundle(kind, scene, place, rng);
+    let inactive = rng.pick(&[0.0, 0.0, 0.1, 0.5, 1.0]);
+    let mut rays = RayBatch::default();
+    for i in 0..len {
+        let origin = match kind.origins {
+            Origins::Flagged | Origins::Shared => bundle.base,
+            Origins::Near => bundle.base + rng.cube() * bundle.spread,
+            Origins::Apart => start(scene, place, rng),
+        };
+        let direction = direction(kind, &bundle, scene, origin, rng);
+        let t_min = if rng.chance(0.1) { place.scale * rng.range(0.0, 2.0) } else { 0.0 };
+        let t_max = if rng.chance(0.2) { place.scale * rng.range(0.0, 4.0) } else { f32::INFINITY };
+        rays.push(origin, direction, t_min, t_max);
+        if kind.broken && rng.chance(0.25) {
+            spoil(&mut rays, i, kind.origins == Origins::Flagged, rng);
+        }
+    }
+    rays.common_origin = kind.origins == Origins::Flagged;
+    for i in 0..len {
+        if rng.chance(0.15) {
+            end_at_hit(scene, &mut rays, i, rng);
+        }
+        if rng.chance(inactive) {
+            deactivate(&mut rays, i, rng);
+        }
+    }
+    poison_unread(&mut rays);
+    rays
+}
+
+fn bundle(kind: Kind, scene: &Scene, place: Place, rng: &mut Pcg) -> Bundle {
+    let target = (kind.directions == Directions::Grazing && rng.chance(0.5)).then(|| any_primitive(scene, rng));
+    Bundle {
+        base: start(scene, place, rng),
+        spread: place.scale * rng.pick(&[0.3, 0.01, 1e-5, 1e-15]),
+        axis: rng.unit(),
+        width: rng.pick(&[0.5, 0.1, 0.01, 1e-4, 1e-7]),
+        target: target.flatten(),
+    }
+}
+
+fn any_primitive(scene: &Scene, rng: &mut Pcg) -> Option<u32> {
+    let count = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
+    (count > 0).then(|| rng.below(count) as u32)
+}
+
+/// Anywhere in the scene, often on a primitive or at the world's origin, sometimes far off.
+fn start(scene: &Scene, place: Place, rng: &mut Pcg) -> Vec3 {
+    match rng.below(8) {
+        0 if !scene.spheres.is_empty() => {
+            let i = rng.below(scene.spheres.len());
+            scene.spheres.center(i) + rng.unit() * scene.spheres.radius[i]
+        }
+        1 if !scene.triangles.is_empty() => {
+            let [a, e1, e2] = scene.triangles.corner_and_edges(rng.below(scene.triangles.len()));
+            rng.pick(&[a, a + e1, a + e1 * 0.25 + e2 * 0.5])
+        }
+        2 if !scene.planes.is_empty() => {
+            let i = rng.below(scene.planes.len());
+            let (n, p) = (scene.planes.normal(i), place.point(rng));
+            p - n * ((n.dot(p) + scene.planes.distance[i]) / n.length_squared())
+        }
+        3 => place.center,
+        4 => vec3(0.0, -0.0, 0.0),
+        5 => place.center + rng.unit() * (place.scale * 50.0),
+        _ => place.point(rng),
+    }
+}
+
+fn direction(kind: Kind, bundle: &Bundle, scene: &Scene, origin: Vec3, rng: &mut Pcg) -> Vec3 {
+    match kind.directions {
+        Directions::Coherent => (bundle.axis + rng.cube() * bundle.width).normalize(),
+        Directions::Random => rng.unit(),
+        Directions::Grazing => {
+            let target = bundle.target.or_else(|| any_primitive(scene, rng));
+            let way = target.map_or(bundle.axis, |id| graze(scene, id, origin, bundle, rng));
+            // A few ε off, to either side.
+            let off = way + rng.unit() * (rng.pick(&[0.0, 1e-7, 1e-6, 1e-4]) * way.length());
+            off.try_normalize().unwrap_or(bundle.axis)
+        }
+        Directions::Axes => loop {
+            let v = [0, 1, 2].map(|_| rng.pick(&[0.0, -0.0, 0.0, -0.0, 1.0, -1.0]));
+            let v = Vec3::from_array(v);
+            if v != Vec3::ZERO {
+                // Not by glam's normalize: −0 stays −0 in either.
+                return v * (1.0 / v.length());
+            }
+        },
+    }
+}
+
+/// A way from `origin` to the outline of primitive `id`, or along it.
+fn graze(scene: &Scene, id: u32, origin: Vec3, bundle: &Bundle, rng: &mut Pcg) -> Vec3 {
+    if id >= scene.first_triangle() {
+        let [a, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
+        let along = rng.range(0.0, 1.0);
+        let edges = [a + e1 * along, a + e2 * along, a + e1 + (e2 - e1) * along, a];
+        rng.pick(&edges) - origin
+    } else if id >= scene.first_sphere() {
+        let i = (id - scene.first_sphere()) as usize;
+        let (to, radius) = (scene.spheres.center(i) - origin, scene.spheres.radius[i]);
+        let sine = radius / to.length();
+        let aside = to.cross(bundle.axis + rng.cube() * bundle.width).normalize_or_zero() * to.length();
+        if sine < 1.0 { to * (1.0 - sine * sine).sqrt() + aside * sine } else { aside }
+    } else {
+        (bundle.axis + rng.cube() * bundle.width).cross(scene.planes.normal(id as usize))
+    }
+}
+
+/// Makes a component of ray `i` NaN or infinite.
+fn spoil(rays: &mut RayBatch, i: usize, flagged: bool, rng: &mut Pcg) {
+    let bad = rng.pick(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+    let axis = rng.below(3);
+    match rng.below(3) {
+        0 if !flagged => rays.origin[axis][i] = bad,
+        1 => rays.t_min[i] = bad.abs(),
+        _ => rays.direction[axis][i] = bad,
+    }
+}
+
+/// Lets ray `i` start or end at the very distance of its nearest hit, which the interval then leaves out.
+fn end_at_hit(scene: &Scene, rays: &mut RayBatch, i: usize, rng: &mut Pcg) {
+    match Answer::new(scene, &Ray::of(rays, i)) {
+        Answer::Hit(t, id) if id != NONE && rng.chance(0.5) => rays.t_max[i] = t,
+        Answer::Hit(t, id) if id != NONE => rays.t_min[i] = t,
+        _ => {}
+    }
+}
+
+fn deactivate(rays: &mut RayBatch, i: usize, rng: &mut Pcg) {
+    rays.t_max[i] = rng.pick(&[-1.0, f32::NAN, f32::NEG_INFINITY, -1e-30]);
+    if rng.chance(0.5) {
+        for axis in 0..3 {
+            rays.direction[axis][i] = rng.pick(&[f32::NAN, 1e30]);
+            if !rays.common_origin {
+                rays.origin[axis][i] = rng.pick(&[f32::NAN, -1e30]);
+            }
+        }
+    }
+}
+
+/// Puts NaN wherever nothing may be read.
+fn poison_unread(rays: &mut RayBatch) {
+    for axis in 0..3 {
+        let first = if rays.common_origin { 1 } else { rays.len };
+        rays.origin[axis][first..BATCH].fill(f32::NAN);
+        rays.direction[axis][rays.len..BATCH].fill(f32::NAN);
+    }
+    rays.t_min[rays.len..BATCH].fill(f32::NAN);
+}
