@@ -49,7 +49,11 @@ impl Target {
                 let real = fs::canonicalize(path).map_err(|e| error(reason(&e)))?;
                 Self { path: path.into(), real, special: false }
             }
-            Err(_) => Self { path: path.into(), real: path.into(), special: false },
+            // A link to what is not there yet is followed, too.
+            Err(_) => {
+                let aim = fs::read_link(path).ok().and_then(|aim| Some(path.parent()?.join(aim)));
+                Self { path: path.into(), real: aim.unwrap_or(path.into()), special: false }
+            }
         };
         if target.special {
             return Ok(target);
@@ -149,20 +153,16 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// [`Target::new`] and [`Target::write`] in one.
-///
-/// # Errors
-/// As those two.
-pub fn write_atomically(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
-) -> Result<(), FileError> {
-    Target::new(path)?.write(write)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn write_atomically(
+        path: &Path,
+        write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+    ) -> Result<(), FileError> {
+        Target::new(path)?.write(write)
+    }
 
     fn names(folder: &Path) -> Vec<String> {
         fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()

@@ -201,7 +201,7 @@ fn values_out_of_range() {
     );
     fault("[camera]\neye = [0, 1, 0]", "s.toml:1: camera.look_at: must differ from camera.eye");
     fault("[camera]\nup = [0, 0, 0]", "s.toml:2: camera.up: must not be zero");
-    fault("[camera]\nfov = 180", "s.toml:2: camera.fov: must be above 0 and below 180, got 180");
+    fault("[camera]\nfov = 180", "s.toml:2: camera.fov: must be at least 0.01 and below 180, got 180");
     fault("[camera]\neye = [0, nan, 0]", "s.toml:2: camera.eye: must be finite and within ±1e18, got [0, NaN, 0]");
     fault("[camera]\neye = [0, 1e60, 0]", "s.toml:2: camera.eye: must be finite and within ±1e18, got [0, inf, 0]");
     fault("[camera]\neye = [0, 1e999, 0]", "s.toml:2: camera.eye[1]: floating-point number overflowed");
@@ -291,7 +291,7 @@ fn mesh_faults_name_both_files() {
         assert_eq!(read(&f).unwrap_err(), message);
     };
     fault(b"v 0 0 0\nf 1 1 2\n", "s.toml:2: mesh[0].file: m.obj:2: f: vertex 2 of 1 does not exist");
-    fault(b"v 0 0 nan\n", "s.toml:2: mesh[0].file: m.obj:1: v: must be finite and within ±1e18, got [0, 0, NaN]");
+    fault(b"v 0 0 nan\n", "s.toml:2: mesh[0].file: m.obj:1: v: must be finite and within ±1e12, got [0, 0, NaN]");
     fault(b"\x00\xff\xfe", "s.toml:2: mesh[0].file: m.obj: no faces");
     let missing = read(&folder(&[("s.toml", MESH)])).unwrap_err();
     assert_eq!(missing, "s.toml:2: mesh[0].file: m.obj: No such file or directory (os error 2)");

@@ -21,7 +21,7 @@ pub struct Size {
 
 impl Size {
     /// The longest side.
-    const MAX_SIDE: usize = 16384;
+    const MAX_SIDE: usize = raypacket::viewer::MAX_SIDE;
     /// The most pixels: their film takes 768 MiB.
     const MAX_PIXELS: usize = 1 << 26;
 

@@ -2,7 +2,7 @@
 
 use super::args::DEFAULT_SCENE;
 use super::{Failure, input, print};
-use raypacket::scene::{Description, Plan};
+use raypacket::scene::{Description, Plan, one_line};
 use std::fmt;
 
 #[derive(clap::Args)]
@@ -27,7 +27,7 @@ impl fmt::Display for Summary<'_> {
         let triangles: usize = scene.meshes.iter().map(|m| m.triangles.len()).sum();
         let (camera, settings) = (&scene.camera, &scene.settings);
         let fall_off = if settings.attenuation { "power / (4 pi r^2)" } else { "power at any distance" };
-        writeln!(f, "scene       {}", scene.name)?;
+        writeln!(f, "scene       {}", one_line(&scene.name))?;
         writeln!(
             f,
             "primitives  {}: {}, {}, {} in {}",
@@ -38,7 +38,7 @@ impl fmt::Display for Summary<'_> {
             if scene.meshes.len() == 1 { "1 mesh".into() } else { format!("{} meshes", scene.meshes.len()) },
         )?;
         writeln!(f, "lights      {}, irradiance = {fall_off}", scene.lights.len())?;
-        let materials: Vec<&str> = scene.materials.iter().map(|m| &*m.name).collect();
+        let materials: Vec<String> = scene.materials.iter().map(|m| one_line(&m.name)).collect();
         writeln!(f, "materials   {}: {}", materials.len(), materials.join(", "))?;
         writeln!(f, "max depth   {}", settings.max_depth)?;
         writeln!(

@@ -115,7 +115,9 @@ fn film(args: &Args, description: &Description, scene: &Scene) -> Film {
             render(scene, &camera, kernel, args.samples, &mut film, &|share| progress.set(share));
         }
         Tracer::Reference => {
-            let radiance = reference::render(description, width, height, args.samples);
+            let progress = Progress::new();
+            let set = |share| progress.set(share);
+            let radiance = reference::render_with_progress(description, width, height, args.samples, &set);
             film.pixels = radiance.into_iter().map(|rgb| rgb.as_vec3().to_array()).collect();
         }
     }

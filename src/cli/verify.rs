@@ -7,6 +7,9 @@ use raypacket::render::Kernel;
 use raypacket::scene;
 use std::ffi::OsString;
 
+/// It keeps all that every kernel and the reference answered, several hundred bytes a pixel.
+const MOST_PIXELS: usize = 1 << 22;
+
 #[derive(clap::Args)]
 pub struct Args {
     /// Scene files (.toml) or built-in scenes [default: all built-in scenes]
@@ -27,6 +30,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else {
         args.scenes.clone()
     };
+    let (pixels, most) = (args.size.width * args.size.height, MOST_PIXELS);
+    if pixels > most {
+        return Err(Failure::input(format!("--size {}: verify compares at most {most} pixels", args.size)));
+    }
     let scenes = input::load_all(&names)?;
     let mut reports = Vec::new();
     for (name, scene) in names.iter().zip(&scenes) {

@@ -26,6 +26,6 @@ pub struct Surface<L> {
     /// Unit geometric normal, outward or as wound.
     pub normal: Vec3<L>,
     /// A length the rounding of the primitive's tests is proportional to: a sphere's radius, a triangle's longest
-    /// edge, nothing for a plane.
+    /// edge (more for a sliver), nothing for a plane.
     pub reach: f32,
 }

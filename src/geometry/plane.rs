@@ -1,7 +1,7 @@
 //! The infinite plane p·n + distance = 0, seen from both sides.
 //!
-//! One method: t = −(n·o + distance) / (n·d), with the normal as the user gave it, of any length, so that nothing
-//! is lost in normalising it (Haines, *Essential Ray Tracing Algorithms*, in Glassner 1989, §2.1).
+//! One method: t = −(n·o + distance) / (n·d), with the normal as the user gave it but for a power of two, so that
+//! nothing is lost in normalising it (Haines, *Essential Ray Tracing Algorithms*, in Glassner 1989, §2.1).
 //! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n|.
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
@@ -11,7 +11,7 @@ use crate::math::{LaneMask, Lanes, Vec3};
 /// Planes, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Planes {
-    /// Normals of any length.
+    /// Normals, their greatest component from 1 to 2.
     pub normal: [Vec<f32>; 3],
     /// Offsets.
     pub distance: Vec<f32>,
@@ -54,10 +54,14 @@ impl Planes {
 
     /// Adds a plane.
     pub fn push(&mut self, normal: glam::Vec3, distance: f32, material: u32) {
+        // By a power of two, which changes no bit of any answer, so that the greatest component is from 1 to 2 and
+        // nothing overflows or vanishes in a product with it.
+        let exponent = f64::from(normal.abs().max_element()).log2().floor() as i32;
+        let scale = 2f64.powi(-exponent);
         for axis in 0..3 {
-            self.normal[axis].push(normal[axis]);
+            self.normal[axis].push((f64::from(normal[axis]) * scale) as f32);
         }
-        self.distance.push(distance);
+        self.distance.push((f64::from(distance) * scale) as f32);
         self.material.push(material);
         // In f64, where the square of a tiny normal does not vanish.
         let length = normal.as_dvec3().length();

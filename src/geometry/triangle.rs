@@ -21,6 +21,11 @@ pub struct Triangles {
     pub e1: [Vec<f32>; 3],
     /// Third corner − first.
     pub e2: [Vec<f32>; 3],
+    /// Unit normals, zero for a triangle without area; for shading.
+    pub unit: Vec<glam::Vec3>,
+    /// The longest edge over the sine of the angle at the first corner: what the rounding of the test is
+    /// proportional to, as N's is to |e1| |e2|.
+    pub reach: Vec<f32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
 }
@@ -58,6 +63,12 @@ impl Triangles {
             self.e2[axis].push((c - a)[axis]);
         }
         self.material.push(material);
+        // In f64, where no product of lengths overflows or vanishes.
+        let [e1, e2] = [(b - a).as_dvec3(), (c - a).as_dvec3()];
+        let n = e1.cross(e2);
+        let longest = e1.length().max(e2.length()).max((e2 - e1).length());
+        self.unit.push(n.try_normalize().unwrap_or_default().as_vec3());
+        self.reach.push((longest * (e1.length() * e2.length() / n.length()).max(1.0)) as f32);
     }
 
     /// First corner and two edges of triangle `i`.
@@ -76,12 +87,9 @@ impl Triangles {
     /// The surface of triangle `i` at `point`, which lies near its plane.
     #[inline(always)]
     pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        let [v0, e1, e2] = self.corner_and_edges(i);
-        let unit = e1.cross(e2).normalize();
-        let normal = Vec3::splat(unit);
-        let height = normal.dot(point - Vec3::splat(v0));
-        let reach = e1.abs().max(e2.abs()).max((e2 - e1).abs()).max_element();
-        Surface { point: normal.mul_add(-height, point), normal, reach }
+        let normal = Vec3::splat(self.unit[i]);
+        let height = normal.dot(point - Vec3::splat(self.corner_and_edges(i)[0]));
+        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
     }
 }
 

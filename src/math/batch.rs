@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Lanes, Vec3 as Lane3};
+use super::{Lanes, MOST_LANES, Vec3 as Lane3};
 
 /// The most rays a batch holds: a tile of 16 × 16 pixels, or any other rays that belong together.
 pub const BATCH: usize = 256;
@@ -50,8 +50,16 @@ impl Default for RayBatch {
 impl RayBatch {
     /// Forgets all rays.
     pub fn clear(&mut self) {
-        self.t_max[..self.len].fill(-1.0);
-        self.len = 0;
+        self.set_len(0);
+        self.common_origin = false;
+    }
+
+    /// Keeps the first `len` rays, or makes room for as many. Panics when that is more than [`BATCH`].
+    pub fn set_len(&mut self, len: usize) {
+        // A packet may have written beyond the end.
+        let end = self.len.next_multiple_of(MOST_LANES).max(len);
+        self.t_max[len..end].fill(-1.0);
+        self.len = len;
     }
 
     /// Adds a ray. Panics when the batch is full.
@@ -64,14 +72,22 @@ impl RayBatch {
         self.t_min[at] = t_min;
         self.t_max[at] = t_max;
         self.len = at + 1;
-        self.common_origin = at == 0 || (self.common_origin && origin == self.first_origin());
+        if self.t_max[..at].iter().any(|&t| t >= 0.0) {
+            self.common_origin &= origin == self.first_origin();
+        } else {
+            self.set_common_origin(origin);
+        }
     }
 
     /// Adds an inactive ray: a place that is passed over. Panics when the batch is full.
     pub fn push_inactive(&mut self) {
-        let common = self.common_origin || self.len == 0;
-        self.push(self.first_origin(), Vec3::Z, 0.0, -1.0);
-        self.common_origin = common;
+        let at = self.len;
+        for (axis, value) in Vec3::Z.to_array().into_iter().enumerate() {
+            self.direction[axis][at] = value;
+        }
+        self.t_min[at] = 0.0;
+        self.t_max[at] = -1.0;
+        self.len = at + 1;
     }
 
     /// Where the rays of the packet that starts at ray `at` start.

@@ -33,6 +33,18 @@ pub enum RayFileError {
         /// Its size.
         bytes: u64,
     },
+    /// A pipe, a device or a folder.
+    #[error("{}: not a regular file", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A file without an active ray.
+    #[error("{}: no active ray", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
     /// A ray that is none.
     #[error("{}: ray {index}: {problem}", path.display())]
     Ray {
@@ -53,7 +65,11 @@ pub enum RayFileError {
 pub fn read(path: &Path) -> Result<Vec<RayBatch>, RayFileError> {
     let io = |source| RayFileError::Io { path: path.into(), source };
     let file = File::open(path).map_err(io)?;
-    let bytes = file.metadata().map_err(io)?.len();
+    let meta = file.metadata().map_err(io)?;
+    if !meta.is_file() {
+        return Err(RayFileError::NotAFile { path: path.into() });
+    }
+    let bytes = meta.len();
     if bytes % RECORD as u64 != 0 {
         return Err(RayFileError::Length { path: path.into(), bytes });
     }
@@ -75,6 +91,9 @@ pub fn read(path: &Path) -> Result<Vec<RayBatch>, RayFileError> {
         }
         check(&n).map_err(|problem| RayFileError::Ray { path: path.into(), index, problem })?;
         batch.push(Vec3::new(n[0], n[1], n[2]), Vec3::new(n[4], n[5], n[6]), n[3], n[7]);
+    }
+    if batches.iter().all(|b| b.active() == 0) {
+        return Err(RayFileError::Empty { path: path.into() });
     }
     Ok(batches)
 }
@@ -122,7 +141,7 @@ mod tests {
         assert_eq!(batches.iter().map(|b| b.len).collect::<Vec<_>>(), [256, 44]);
         assert_eq!(batches.iter().map(RayBatch::active).sum::<usize>(), 299);
         assert_eq!((batches[1].origin[0][2], batches[1].direction[1][2], batches[1].t_max[1]), (9.0, 0.6, -1.0));
-        assert!(read(file(&[], 0).path()).unwrap().is_empty());
+        assert!(batches[0].common_origin && !batches[1].common_origin);
     }
 
     #[test]
@@ -145,6 +164,10 @@ mod tests {
         bad = GOOD;
         bad[3] = -1.0;
         assert_eq!(message(&[bad], 0), "FILE: ray 0: t_min must not be below 0, got -1");
+        bad[7] = -1.0;
+        assert_eq!(message(&[bad], 0), "FILE: no active ray");
+        assert_eq!(message(&[], 0), "FILE: no active ray");
+        assert_eq!(read(Path::new("/dev/null")).unwrap_err().to_string(), "/dev/null: not a regular file");
         assert!(read(Path::new("nowhere.primary")).unwrap_err().to_string().starts_with("nowhere.primary: "));
     }
 }

@@ -21,7 +21,7 @@ mod sphere;
 mod triangle;
 
 pub use camera::Camera;
-pub use image::{hits, render};
+pub use image::{hits, render, render_with_progress};
 pub use shade::Rounding;
 
 use plane::Plane;

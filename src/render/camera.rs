@@ -7,17 +7,18 @@ use glam::{DVec3, Vec3};
 ///
 /// C = E + d V is the screen's centre, its half-height 1 and its half-width the aspect; d = 1 / tan(fov / 2).
 /// The primary ray through (u, v), both from 0 to 1, goes through p0 + u (p1 − p0) + v (p2 − p0). The corners are
-/// kept relative to E, where they do not lose digits to it.
+/// kept relative to E, where they do not lose digits to it, and in `f64`, so that a pixel does not lose any to the
+/// width of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// E.
     pub eye: Vec3,
     /// p0 − E, the top left corner.
-    pub corner: Vec3,
+    pub corner: DVec3,
     /// p1 − p0, along the top edge.
-    pub across: Vec3,
+    pub across: DVec3,
     /// p2 − p0, down the left edge.
-    pub down: Vec3,
+    pub down: DVec3,
 }
 
 impl Camera {
@@ -35,30 +36,30 @@ impl Camera {
         let half_width = f64::from(aspect);
         Self {
             eye: description.eye,
-            corner: (view * d - right * half_width + up).as_vec3(),
-            across: (right * (2.0 * half_width)).as_vec3(),
-            down: (up * -2.0).as_vec3(),
+            corner: view * d - right * half_width + up,
+            across: right * (2.0 * half_width),
+            down: up * -2.0,
         }
     }
 
     /// p0, the top left corner of the screen.
     pub fn p0(&self) -> Vec3 {
-        self.eye + self.corner
+        (self.eye.as_dvec3() + self.corner).as_vec3()
     }
 
     /// p1, the top right corner.
     pub fn p1(&self) -> Vec3 {
-        self.p0() + self.across
+        (self.eye.as_dvec3() + self.corner + self.across).as_vec3()
     }
 
     /// p2, the bottom left corner.
     pub fn p2(&self) -> Vec3 {
-        self.p0() + self.down
+        (self.eye.as_dvec3() + self.corner + self.down).as_vec3()
     }
 
     /// Unit direction of the ray through p0 + u (p1 − p0) + v (p2 − p0).
     pub fn direction(&self, u: f32, v: f32) -> Vec3 {
-        (self.corner + self.across * u + self.down * v).normalize()
+        (self.corner + self.across * f64::from(u) + self.down * f64::from(v)).normalize().as_vec3()
     }
 }
 
@@ -101,7 +102,7 @@ mod tests {
                 let v = look_at.normalize();
                 assert!((c.direction(0.5, 0.5) - v).length() < 1e-5, "{look_at} {up}");
                 assert!((c.across.length() - 4.0).abs() < 1e-5 && (c.down.length() - 2.0).abs() < 1e-5);
-                assert!(c.across.dot(c.down).abs() < 1e-5 && c.across.dot(v).abs() < 1e-5);
+                assert!(c.across.dot(c.down).abs() < 1e-5 && c.across.dot(v.as_dvec3()).abs() < 1e-5);
             }
         }
     }

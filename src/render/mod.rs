@@ -13,4 +13,4 @@ pub(crate) use film::Tone;
 pub use film::{Film, tone_map};
 pub use kernel::Kernel;
 pub(crate) use kernel::with_lanes;
-pub use tile::{PrimaryHits, TILE, primary_hits, record, render, render_display};
+pub use tile::{PrimaryHits, TILE, primary_hits, record, render, render_display, render_display_while};

@@ -60,18 +60,20 @@ impl Grid {
     /// Fills a batch with the eye rays of the tile whose first pixel is `first`, through the point `within` of every
     /// pixel (½, ½ is the centre). Rays beyond the picture's edge are inactive.
     pub(crate) fn fill<L: Lanes>(&self, first: [usize; 2], within: [f32; 2], rays: &mut RayBatch) {
-        let [per_x, per_y] = [1.0 / self.width as f32, 1.0 / self.height as f32];
-        let [x0, y0] = [L::splat(first[0] as f32), L::splat(first[1] as f32)];
-        let [in_x, in_y] = within.map(L::splat);
-        let size = [L::splat(self.width as f32), L::splat(self.height as f32)];
-        let [corner, across, down] = [self.camera.corner, self.camera.across, self.camera.down].map(Vec3::splat);
+        // The tile's own corner and steps, from f64: what is added to it in a tile is small beside it.
+        let [width, height] = [self.width, self.height].map(|n| n as f64);
+        let [step_x, step_y] = [self.camera.across / width, self.camera.down / height];
+        let corner = self.camera.corner
+            + step_x * (first[0] as f64 + f64::from(within[0]))
+            + step_y * (first[1] as f64 + f64::from(within[1]));
+        let [corner, across, down] = [corner, step_x, step_y].map(|v| Vec3::splat(v.as_vec3()));
+        let left = [self.width - first[0], self.height - first[1]].map(|n| L::splat(n as f32));
         rays.set_common_origin(self.camera.eye);
         rays.len = BATCH;
         for at in (0..BATCH).step_by(L::WIDTH) {
-            let (x, y) = (x0 + L::load(&OFFSET[0][at..]), y0 + L::load(&OFFSET[1][at..]));
-            let (u, v) = ((x + in_x) * L::splat(per_x), (y + in_y) * L::splat(per_y));
-            let direction = across.mul_add(u, down.mul_add(v, corner)).normalize();
-            let active = x.lt(size[0]) & y.lt(size[1]);
+            let (x, y) = (L::load(&OFFSET[0][at..]), L::load(&OFFSET[1][at..]));
+            let direction = across.mul_add(x, down.mul_add(y, corner)).normalize();
+            let active = x.lt(left[0]) & y.lt(left[1]);
             direction.store(&mut rays.direction, at);
             L::splat(f32::INFINITY).select(active, L::splat(-1.0)).store(&mut rays.t_max[at..]);
         }
@@ -120,10 +122,25 @@ pub fn render_display(
     height: usize,
     pixels: &mut [u32],
 ) -> Counts {
+    render_display_while(scene, camera, kernel, [width, height], pixels, &|| true)
+}
+
+/// The same, as long as `go_on` says so, which is asked before every tile; what is left then stays as it was.
+///
+/// # Panics
+/// When `pixels` does not hold width × height.
+pub fn render_display_while(
+    scene: &Scene,
+    camera: &Camera,
+    kernel: Kernel,
+    [width, height]: [usize; 2],
+    pixels: &mut [u32],
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Counts {
     assert_eq!(pixels.len(), width * height, "the buffer holds the picture");
     let grid = Grid::new(camera, width, height);
     let tone = Tone::get();
-    over_tiles(pixels, width, |work, first, out| {
+    over_tiles_while(pixels, width, go_on, |work, first, out| {
         let counts = with_lanes!(kernel, centred(scene, &grid, first, work));
         let [r, g, b] = &work.shading.radiance;
         for (i, out) in out.iter_mut().enumerate() {
@@ -195,13 +212,23 @@ fn over_tiles<P: Copy + Default + Send>(
     width: usize,
     tile: impl Fn(&mut Work, [usize; 2], &mut [P; BATCH]) -> Counts + Sync,
 ) -> Counts {
+    over_tiles_while(pixels, width, &|| true, tile)
+}
+
+/// The same, as long as `go_on` says so.
+fn over_tiles_while<P: Copy + Default + Send>(
+    pixels: &mut [P],
+    width: usize,
+    go_on: &(dyn Fn() -> bool + Sync),
+    tile: impl Fn(&mut Work, [usize; 2], &mut [P; BATCH]) -> Counts + Sync,
+) -> Counts {
     if width == 0 {
         return Counts::default();
     }
     let strip = |work: &mut Box<Work>, (row, strip): (usize, &mut [P])| {
         let mut counts = Counts::default();
         let mut done = [P::default(); BATCH];
-        for x0 in (0..width).step_by(TILE) {
+        for x0 in (0..width).step_by(TILE).take_while(|_| go_on()) {
             counts = counts + tile(work, [x0, row * TILE], &mut done);
             put(&done, strip, width, x0);
         }

@@ -7,6 +7,18 @@ use super::{Description, Invalid, Material, Mesh, Pigment};
 /// The largest coordinate, radius or distance: its square, and a sum of a few of them, still fits an `f32`.
 pub const MAX_LENGTH: f32 = 1e18;
 
+/// The largest coordinate of a mesh: the product of two edges and the distance of an eye as far still fits an `f32`.
+pub const MAX_MESH_LENGTH: f32 = 1e12;
+
+/// The smallest radius: its square is a normal `f32` with room to spare.
+pub const MIN_RADIUS: f32 = 1e-12;
+
+/// The smallest field of view, in degrees: narrower, neighbouring pixels have the same direction.
+const MIN_FOV: f32 = 0.01;
+
+/// The largest Phong exponent: a highlight a thousandth of a radian across.
+const MAX_SHININESS: f32 = 1e6;
+
 /// Primitive ids are `u32`, and the last value is kept for "nothing".
 const MAX_PRIMITIVES: usize = (u32::MAX - 1) as usize;
 
@@ -43,9 +55,10 @@ fn camera(description: &Description) -> Result<(), Invalid> {
     rule(require(camera.look_at != camera.eye, || "must differ from camera.eye".into()), || "camera.look_at".into())?;
     rule(direction(camera.up), || "camera.up".into())?;
     let fov = camera.fov;
-    rule(require(fov > 0.0 && fov < 180.0, || format!("must be above 0 and below 180, got {fov}")), || {
-        "camera.fov".into()
-    })
+    rule(
+        require((MIN_FOV..180.0).contains(&fov), || format!("must be at least {MIN_FOV} and below 180, got {fov}")),
+        || "camera.fov".into(),
+    )
 }
 
 fn settings(description: &Description) -> Result<(), Invalid> {
@@ -76,7 +89,12 @@ fn surface(material: &Material) -> Result<(), Invalid> {
         require(specular >= 0.0 && specular.is_finite(), || format!("must be finite and 0 or more, got {specular}")),
         || key("specular"),
     )?;
-    rule(positive(shininess), || key("shininess"))
+    rule(
+        require(shininess > 0.0 && shininess <= MAX_SHININESS, || {
+            format!("must be above 0 and at most {MAX_SHININESS:e}, got {shininess}")
+        }),
+        || key("shininess"),
+    )
 }
 
 fn primitives(description: &Description) -> Result<(), Invalid> {
@@ -100,7 +118,7 @@ fn primitives(description: &Description) -> Result<(), Invalid> {
 
 fn triangles(index: usize, mesh: &Mesh) -> Result<(), Invalid> {
     for (i, p) in mesh.positions.iter().enumerate() {
-        rule(point(*p), || format!("mesh[{index}].positions[{i}]"))?;
+        rule(vertex(*p), || format!("mesh[{index}].positions[{i}]"))?;
     }
     let known = mesh.positions.len();
     for (i, corners) in mesh.triangles.iter().enumerate() {
@@ -114,9 +132,18 @@ fn triangles(index: usize, mesh: &Mesh) -> Result<(), Invalid> {
 }
 
 /// A place in the world.
-pub(super) fn point(p: Vec3) -> Result<(), String> {
-    require(p.abs().max_element() <= MAX_LENGTH && p.is_finite(), || {
-        format!("must be finite and within ±{MAX_LENGTH:e}, got {}", triple(p))
+fn point(p: Vec3) -> Result<(), String> {
+    within(p, MAX_LENGTH)
+}
+
+/// A vertex of a mesh.
+pub(super) fn vertex(p: Vec3) -> Result<(), String> {
+    within(p, MAX_MESH_LENGTH)
+}
+
+fn within(p: Vec3, most: f32) -> Result<(), String> {
+    require(p.abs().max_element() <= most && p.is_finite(), || {
+        format!("must be finite and within ±{most:e}, got {}", triple(p))
     })
 }
 
@@ -144,7 +171,7 @@ fn positive(x: f32) -> Result<(), String> {
 
 fn length(x: f32) -> Result<(), String> {
     positive(x)?;
-    require(x <= MAX_LENGTH, || format!("must be within {MAX_LENGTH:e}, got {x:e}"))
+    require((MIN_RADIUS..=MAX_LENGTH).contains(&x), || format!("must be {MIN_RADIUS:e} to {MAX_LENGTH:e}, got {x:e}"))
 }
 
 fn material(index: usize, known: usize) -> Result<(), String> {

@@ -40,7 +40,7 @@ fn the_camera_is_checked() {
     assert_eq!(verdict(|d| d.camera.look_at = d.camera.eye), "camera.look_at: must differ from camera.eye");
     assert_eq!(verdict(|d| d.camera.up = Vec3::ZERO), "camera.up: must not be zero");
     for fov in [0.0, 180.0, -3.0, f32::NAN, f32::INFINITY] {
-        let expected = format!("camera.fov: must be above 0 and below 180, got {fov}");
+        let expected = format!("camera.fov: must be at least 0.01 and below 180, got {fov}");
         assert_eq!(verdict(|d| d.camera.fov = fov), expected);
     }
 }
@@ -68,7 +68,7 @@ fn materials_are_checked() {
         verdict(|d| d.materials[1].specular = -0.5),
         "materials.\"two words\".specular: must be finite and 0 or more, got -0.5"
     );
-    assert_eq!(verdict(|d| d.materials[0].shininess = 0.0), "materials.grey.shininess: must be above 0, got 0");
+    assert_eq!(verdict(|d| d.materials[0].shininess = 0.0), "materials.grey.shininess: must be above 0 and at most 1e6, got 0");
     let checker = |colors, size| verdict(|d| d.materials[0].pigment = Pigment::Checker { colors, size });
     assert_eq!(checker([Vec3::ONE; 2], 0.0), "materials.grey.checker.size: must be above 0, got 0");
     assert_eq!(
@@ -86,7 +86,7 @@ fn primitives_are_checked() {
     );
     assert_eq!(verdict(|d| d.spheres[0].radius = -1.0), "sphere[0].radius: must be above 0, got -1");
     assert_eq!(verdict(|d| d.spheres[0].radius = f32::INFINITY), "sphere[0].radius: must be finite, got inf");
-    assert_eq!(verdict(|d| d.spheres[0].radius = 1e30), "sphere[0].radius: must be within 1e18, got 1e30");
+    assert_eq!(verdict(|d| d.spheres[0].radius = 1e30), "sphere[0].radius: must be 1e-12 to 1e18, got 1e30");
     assert_eq!(verdict(|d| d.spheres[0].material = 2), "sphere[0].material: material 2 of 2 does not exist");
     assert_eq!(verdict(|d| d.meshes[0].triangles[0][1] = 3), "mesh[0].triangles[0]: vertex 3 of 3 does not exist");
     assert_eq!(verdict(|d| d.meshes[0].material = 9), "mesh[0].material: material 9 of 2 does not exist");

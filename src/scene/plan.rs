@@ -4,7 +4,7 @@ use std::fmt;
 
 use glam::Vec3;
 
-use super::{Description, Pigment};
+use super::Description;
 
 /// Where a light's shadow rays start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,8 +15,9 @@ pub enum ShadowStart {
     Point,
 }
 
-/// The greatest distance of a light from a primitive, in sizes of the primitive, for shadow rays to start at the
-/// light: a ray that comes from D away is off by 12 ε D ([`crate::shade`]), here less than 1/1000 of the size.
+/// The greatest distance of a light from a primitive, in sizes of the primitive (a sphere's radius, a triangle's least
+/// height), for shadow rays to start at the light: a ray that comes from D away is off by 12 ε D ([`crate::shade`]),
+/// here less than 1/1000 of the size. Likewise from the eye, in distances from there to what it looks at.
 const FARTHEST: f32 = 1024.0;
 
 /// What the tracer will do for a scene, each with its reason; what is absent costs nothing.
@@ -28,8 +29,6 @@ pub struct Plan {
     pub waves: u32,
     /// Whether any material has a highlight, so that the Phong term is evaluated.
     pub highlights: bool,
-    /// Whether any material has a checkerboard.
-    pub checkers: bool,
     /// Where each light's shadow rays start.
     pub shadows: Vec<ShadowStart>,
     mirrors: usize,
@@ -49,7 +48,6 @@ impl Plan {
             primitives: [description.planes.len(), description.spheres.len(), triangles],
             waves: if mirrors == 0 { 1 } else { description.settings.max_depth },
             highlights: count(&|m| m.specular > 0.0) > 0,
-            checkers: count(&|m| matches!(m.pigment, Pigment::Checker { .. })) > 0,
             shadows: description.lights.iter().map(|l| shadow_start(description, l.position)).collect(),
             mirrors,
             materials: used.iter().filter(|u| **u).count(),
@@ -59,16 +57,21 @@ impl Plan {
 
 /// Where the shadow rays of a light at `position` start.
 fn shadow_start(description: &Description, position: Vec3) -> ShadowStart {
-    let near = |center: Vec3, size: f32| (center - position).length() <= FARTHEST * size;
-    let spheres = description.spheres.iter().all(|s| near(s.center, s.radius));
+    let distance = |p: Vec3| (p.as_dvec3() - position.as_dvec3()).length();
+    let near = |p: Vec3, size: f64| distance(p) <= f64::from(FARTHEST) * size;
+    let camera = &description.camera;
+    let view = (camera.look_at.as_dvec3() - camera.eye.as_dvec3()).length();
+    let spheres = description.spheres.iter().all(|s| near(s.center, f64::from(s.radius)));
     let meshes = description.meshes.iter().all(|mesh| {
         mesh.triangles.iter().all(|corners| {
             let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
-            let size = (b - a).length().max((c - a).length());
-            size == 0.0 || near(a, size)
+            let [u, v] = [b - a, c - a].map(|e| e.as_dvec3());
+            let least_height = u.cross(v).length() / u.length().max(v.length()).max((v - u).length());
+            // A triangle without area casts no shadow.
+            least_height.is_nan() || least_height == 0.0 || [a, b, c].iter().all(|&p| near(p, least_height))
         })
     });
-    if spheres && meshes { ShadowStart::Light } else { ShadowStart::Point }
+    if spheres && meshes && near(camera.eye, view) { ShadowStart::Light } else { ShadowStart::Point }
 }
 
 /// Which materials some primitive wears.
@@ -113,18 +116,17 @@ impl fmt::Display for Plan {
         if from_point > 0 {
             writeln!(
                 f,
-                "shadows     {from_point} streams a wave towards lights over {FARTHEST} sizes from a primitive, \
-                 too far to aim at it from there"
+                "shadows     {from_point} streams a wave towards lights over {FARTHEST} sizes from a primitive, or from \
+                 what is seen: too far to aim at it from there"
             )?;
         }
         if self.shadows.is_empty() {
             writeln!(f, "shadows     none: there is no light")?;
         }
-        writeln!(
+        write!(
             f,
             "highlights  {}",
             if self.highlights { "yes: a material is specular" } else { "no: no material is specular" }
-        )?;
-        write!(f, "checkers    {}", if self.checkers { "yes: a material has them" } else { "no: no material has them" })
+        )
     }
 }

@@ -126,7 +126,7 @@ impl Lighting {
         mut spawn: impl FnMut(&mut RayBatch, usize, Vec3<L>, Vec3<L>, L) -> ShadowRay<L>,
     ) -> u64 {
         let mut count = 0;
-        self.rays.len = wave.rays.len;
+        self.rays.set_len(wave.rays.len);
         for at in (0..wave.rays.len).step_by(L::WIDTH) {
             let lift = L::load(&surfaces.lift[at..]);
             let hit = lift.ge(L::zero());
@@ -173,8 +173,10 @@ impl Lighting {
             if surfaces.glossy && shiny.any() {
                 let mirrored =
                     spawn::mirror(Vec3::<L>::load(&wave.rays.direction, at), Vec3::load(&surfaces.normal, at));
-                let along = mirrored.dot(Vec3::load(&rays.direction, at));
-                let towards = if rays.common_origin { -along } else { along };
+                let away = Vec3::load(&rays.direction, at);
+                let off = if rays.common_origin { mirrored + away } else { mirrored - away };
+                // r·l of unit vectors, which is exact where it is close to 1 and never above it.
+                let towards = off.dot(off).mul_add(L::splat(-0.5), L::splat(1.0));
                 let shiny = shiny & towards.gt(L::zero());
                 if shiny.any() {
                     let gloss = (e * powf(towards, L::load(&surfaces.shininess[at..]))).select(shiny, L::zero());

@@ -4,7 +4,7 @@ use super::spawn;
 use super::surface::surface;
 use crate::math::Vec3 as Lane3;
 use crate::scene::{Scene, ShadowStart};
-use crate::trace::{intersect_one, occluded_one};
+use crate::trace::Probe;
 use glam::Vec3;
 
 /// What a segment of a path is.
@@ -36,11 +36,12 @@ pub struct Segment {
 
 /// All segments an eye ray sets off, in the order they are traced.
 pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
+    let mut probe = Probe::default();
     let mut segments = Vec::new();
     let (mut from, mut direction) = (origin, direction);
     let mut kind = SegmentKind::Primary;
     for depth in 1..=scene.plan.waves {
-        let hit = intersect_one(scene, from, direction);
+        let hit = probe.intersect(scene, from, direction);
         let Some(hit) = hit else {
             segments.push(Segment { kind, from, to: None, direction });
             break;
@@ -57,7 +58,7 @@ pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
             };
             let ray = spawn(light.position.into(), s.point, normal.into(), lift);
             if ray.cosine > 0.0 {
-                let blocked = occluded_one(scene, ray.origin.into(), ray.direction.into(), ray.t_max);
+                let blocked = probe.occluded(scene, ray.origin.into(), ray.direction.into(), ray.t_max);
                 let direction = (light.position - point).normalize();
                 let kind = SegmentKind::Shadow { blocked };
                 segments.push(Segment { kind, from: point, to: Some(light.position), direction });

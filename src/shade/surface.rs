@@ -177,8 +177,7 @@ fn axes(scene: &Scene, id: u32) -> [glam::Vec3; 2] {
     if id < scene.first_sphere() {
         scene.planes.unit[id as usize].axes
     } else {
-        let [_, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
-        frame(e1.cross(e2).normalize())
+        frame(scene.triangles.unit[(id - scene.first_triangle()) as usize])
     }
 }
 

@@ -10,7 +10,9 @@ pub struct Bounds {
     pub origin: Span,
     /// A box around the directions.
     pub direction: Span,
-    /// Radius of a ball around the origins; 0 when all rays share one origin.
+    /// Whether all rays share one origin.
+    pub shared: bool,
+    /// Radius of a ball around the origins.
     pub spread: f32,
     /// The cone that holds all directions, if they are within a half-space with room to spare.
     pub cone: Option<Cone>,
@@ -31,7 +33,7 @@ impl Bounds {
     #[inline(always)]
     pub fn miss_triangle(&self, triangles: &Triangles, i: usize) -> bool {
         let seen = triangles.seen(i, self.origin.middle);
-        if !self.shared() {
+        if !self.shared {
             let v0 = Vec3::from(triangles.corner_and_edges(i)[0]);
             return self.turn_away(seen.n, seen.height, 2.0 * v0.max_abs() * seen.n.max_abs());
         }
@@ -53,7 +55,7 @@ impl Bounds {
         let Vec3 { x, y, z } = self.origin.half;
         let spread = (normal.x * x).abs() + (normal.y * y).abs() + (normal.z * z).abs();
         let size = self.origin.middle.max_abs() * normal.max_abs();
-        let spread = spread * (1.0 + 1e-6) + 1e-6 * (size + offset) * f32::from(!self.shared());
+        let spread = spread * (1.0 + 1e-6) + 1e-6 * (size + offset) * f32::from(!self.shared);
         if height > spread {
             self.direction.greatest(normal) < 0.0
         } else if height < -spread {
@@ -114,12 +116,7 @@ impl Bounds {
         let Vec3 { x, y, z } = origin.half;
         let shared = x == 0.0 && y == 0.0 && z == 0.0;
         let spread = if shared { 0.0 } else { origin.half.dot(origin.half).sqrt() * (1.0 + 1e-5) };
-        Self { origin, direction, spread, cone: Cone::around(&direction) }
-    }
-
-    /// Whether all rays share one origin.
-    pub fn shared(&self) -> bool {
-        self.spread == 0.0
+        Self { origin, direction, shared, spread, cone: Cone::around(&direction) }
     }
 }
 
@@ -181,8 +178,10 @@ impl Span {
     pub fn greatest(&self, a: Vec3<f32>) -> f32 {
         let Vec3 { x, y, z } = self.middle;
         let most = a.dot(self.middle) + a.x.abs() * self.half.x + a.y.abs() * self.half.y + a.z.abs() * self.half.z;
-        // A dozen roundings of terms no larger than these.
-        most + 1e-6 * (a.x * x).abs().max((a.y * y).abs()).max((a.z * z).abs()).max(most.abs())
+        // Some thirty roundings at the most, of terms no larger than these.
+        let largest = |a: f32, middle: f32, half: f32| (a * middle).abs().max((a * half).abs());
+        let Vec3 { x: hx, y: hy, z: hz } = self.half;
+        most + 2e-6 * largest(a.x, x, hx).max(largest(a.y, y, hy)).max(largest(a.z, z, hz))
     }
 }
 

@@ -47,7 +47,7 @@ impl Candidates {
     /// Gathers what the batch with these bounds may meet.
     #[inline(always)]
     pub fn gather<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> View<'_> {
-        if bounds.shared() {
+        if bounds.shared {
             let o = bounds.origin.middle;
             self.shared.fill::<L>(
                 scene,

@@ -12,7 +12,7 @@ mod single;
 
 pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use candidates::Candidates;
-pub use single::{Hit, intersect_one, occluded_one};
+pub use single::{Hit, Probe, intersect_one, occluded_one};
 
 use crate::math::{LaneMask, Lanes};
 use crate::scene::Scene;

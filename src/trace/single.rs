@@ -1,8 +1,10 @@
 //! One ray at a time, for drawing and picking: a batch of one.
 
+use glam::Vec3;
+use wide::f32x8;
+
 use super::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded};
 use crate::scene::Scene;
-use glam::Vec3;
 
 /// One hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,20 +15,46 @@ pub struct Hit {
     pub primitive: u32,
 }
 
-/// Nearest hit of one ray in (0, ∞); `direction` has unit length.
-pub fn intersect_one(scene: &Scene, origin: Vec3, direction: Vec3) -> Option<Hit> {
-    let mut rays = RayBatch::default();
-    rays.push(origin, direction, 0.0, f32::INFINITY);
-    let mut hits = HitBatch::default();
-    intersect::<f32>(scene, &rays, &mut hits, &mut Candidates::default());
-    (hits.primitive[0] != NONE).then_some(Hit { t: hits.t[0], primitive: hits.primitive[0] })
+/// Room to trace single rays in, kept from one to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Probe {
+    rays: RayBatch,
+    hits: HitBatch,
+    blocked: Blocked,
+    candidates: Candidates,
 }
 
-/// Whether anything lies in (0, t_max) along one ray; `direction` has unit length.
+impl Probe {
+    /// Nearest hit of one ray in (0, ∞); `direction` has unit length.
+    pub fn intersect(&mut self, scene: &Scene, origin: Vec3, direction: Vec3) -> Option<Hit> {
+        self.aim(origin, direction, f32::INFINITY);
+        // Eight wide for the sake of the candidates; the answer is the same at every width.
+        intersect::<f32x8>(scene, &self.rays, &mut self.hits, &mut self.candidates);
+        let hit = Hit { t: self.hits.t[0], primitive: self.hits.primitive[0] };
+        (hit.primitive != NONE).then_some(hit)
+    }
+
+    /// Whether anything lies in (0, t_max) along one ray; `direction` has unit length.
+    pub fn occluded(&mut self, scene: &Scene, origin: Vec3, direction: Vec3, t_max: f32) -> bool {
+        self.aim(origin, direction, t_max);
+        self.blocked = Blocked::default();
+        occluded::<f32x8>(scene, &self.rays, &mut self.blocked, &mut self.candidates);
+        self.blocked.get(0, 1) != 0
+    }
+
+    fn aim(&mut self, origin: Vec3, direction: Vec3, t_max: f32) {
+        self.rays.clear();
+        self.hits.primitive[0] = NONE;
+        self.rays.push(origin, direction, 0.0, t_max);
+    }
+}
+
+/// [`Probe::intersect`] for a single ray.
+pub fn intersect_one(scene: &Scene, origin: Vec3, direction: Vec3) -> Option<Hit> {
+    Probe::default().intersect(scene, origin, direction)
+}
+
+/// [`Probe::occluded`] for a single ray.
 pub fn occluded_one(scene: &Scene, origin: Vec3, direction: Vec3, t_max: f32) -> bool {
-    let mut rays = RayBatch::default();
-    rays.push(origin, direction, 0.0, t_max);
-    let mut blocked = Blocked::default();
-    occluded::<f32>(scene, &rays, &mut blocked, &mut Candidates::default());
-    blocked.get(0, 1) != 0
+    Probe::default().occluded(scene, origin, direction, t_max)
 }

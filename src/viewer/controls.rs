@@ -68,7 +68,7 @@ impl Controls {
         if forward.cross(up).length() < 1e-4 {
             // Looking along up: left and right are the camera's choice, so its screen says what up is.
             let camera = Camera::new(home, 1.0);
-            up = (-camera.down).as_dvec3().try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
+            up = (-camera.down).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
         }
         let pitch = forward.dot(up).clamp(-1.0, 1.0).asin();
         let ahead = forward.reject_from_normalized(up).normalize();

@@ -48,8 +48,15 @@ pub fn panes(width: usize) -> (usize, usize) {
 }
 
 impl Frame {
-    /// Traces and draws what is asked for, over an earlier frame, whose memory it takes. Runs in the caller's pool.
-    pub fn paint(&mut self, scene: &Scene, description: &Description, request: &Request) {
+    /// Traces and draws what is asked for, over an earlier frame, whose memory it takes; leaves off when `go_on` says
+    /// so. Runs in the caller's pool.
+    pub fn paint(
+        &mut self,
+        scene: &Scene,
+        description: &Description,
+        request: &Request,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) {
         let ((left, right), height) = (panes(request.size.0), request.size.1);
         self.view.resize(left, height);
         self.slice.resize(right, height);
@@ -61,11 +68,12 @@ impl Frame {
         }
         let camera = Camera::new(&request.camera, left as f32 / height as f32);
         let start = Instant::now();
-        self.counts = render::render_display(scene, &camera, request.kernel, left, height, &mut self.view.pixels);
+        let pixels = &mut self.view.pixels;
+        self.counts = render::render_display_while(scene, &camera, request.kernel, [left, height], pixels, go_on);
         self.tracing = start.elapsed();
         if right > 0 {
             let layout = request.map.layout(right, height);
-            slice::draw(&mut self.slice, &layout, description, &camera, &middle_row(scene, &camera, left));
+            slice::draw(&mut self.slice, &layout, description, &camera, &middle_row(scene, &camera, left, go_on));
         }
     }
 
@@ -79,8 +87,11 @@ impl Frame {
 }
 
 /// The light paths of every tenth pixel of the screen's middle row.
-fn middle_row(scene: &Scene, camera: &Camera, width: usize) -> Vec<Segment> {
+fn middle_row(scene: &Scene, camera: &Camera, width: usize, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Segment> {
     let path = |column: usize| {
+        if !go_on() {
+            return Vec::new();
+        }
         let u = ((column * EVERY) as f32 + 0.5) / width as f32;
         shade::path(scene, camera.eye, camera.direction(u, 0.5))
     };

@@ -32,6 +32,7 @@ use crate::{
 use frame::{Frame, Request};
 use std::{
     path::PathBuf,
+    sync::atomic::{AtomicBool, Ordering},
     sync::mpsc::{self, Receiver, Sender},
     thread,
 };
@@ -107,7 +108,15 @@ pub enum ViewerError {
 /// [`ViewerError`], before anything is traced when there is no display.
 pub fn run(description: &Description, scene: &Scene, options: &Options) -> Result<(), ViewerError> {
     options.check()?;
-    join(|link| window::show(description, options, &link), |request, frame| frame.paint(scene, description, request))
+    let over = AtomicBool::new(false);
+    let window = |link: Link| {
+        let shown = window::show(description, options, &link);
+        // The frame under way is for nobody.
+        over.store(true, Ordering::Relaxed);
+        shown
+    };
+    let go_on = || !over.load(Ordering::Relaxed);
+    join(window, |request, frame| frame.paint(scene, description, request, &go_on))
 }
 
 /// Runs a window and a painter beside each other until the window ends.

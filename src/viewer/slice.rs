@@ -137,7 +137,7 @@ fn draw_paths(picture: &mut Picture, layout: &Layout, paths: &[Segment]) {
 
 fn draw_eye(picture: &mut Picture, layout: &Layout, camera: &Camera) {
     let eye = layout.place(flat(camera.eye));
-    let down = camera.down * 0.5;
+    let down = (camera.down * 0.5).as_vec3();
     let place = |point: Vec3| layout.place(flat(point));
     let (left, right) = (place(camera.p0() + down), place(camera.p1() + down));
     // Any screen that is the same seen from the eye gives the same rays: one too small or too large to see on the
@@ -238,7 +238,12 @@ mod tests {
             ..Description::default()
         };
         let eye = Vec3::new(0.0, 1.0, 5.0);
-        let camera = Camera { eye, corner: Vec3::new(-1.0, 1.0, -1.5), across: Vec3::X * 2.0, down: Vec3::Y * -2.0 };
+        let camera = Camera {
+            eye,
+            corner: glam::DVec3::new(-1.0, 1.0, -1.5),
+            across: glam::DVec3::X * 2.0,
+            down: glam::DVec3::Y * -2.0,
+        };
         let mut picture = Picture::new(width, height);
         draw(&mut picture, &Map::new(&description).layout(width, height), &description, &camera, paths);
         picture

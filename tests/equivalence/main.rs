@@ -148,7 +148,6 @@ fn coincident_primitives_go_to_the_lowest_id() {
 
 /// Origins so close to each other that the square of their distance is no `f32`: still not one origin.
 #[test]
-#[ignore = "known fault: trace::bounds takes the origins for shared when `spread` underflows"]
 fn origins_apart_by_next_to_nothing() {
     let mut description = common::empty();
     description.planes.push(common::plane(glam::Vec3::Y, 0.0));

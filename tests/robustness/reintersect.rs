@@ -155,7 +155,6 @@ fn slivers() {
 }
 
 #[test]
-#[ignore = "known fault: the lift of a triangle does not grow with 1 / sin of its smallest angle, as its error does"]
 fn thinner_slivers() {
     thin_triangles(&[3e-3, 1e-3, 1e-4]);
 }

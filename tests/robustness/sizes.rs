@@ -12,7 +12,6 @@ fn a_pixel_a_column_a_strip() {
 }
 
 #[test]
-#[ignore = "known fault: the error of a ray's direction is that of the screen's edge, however wide the screen"]
 fn a_row() {
     right_at(&[[500, 1]]);
 }

@@ -49,7 +49,8 @@ fn mirrored_from_x_to_minus_x() {
         mirrored.planes.iter_mut().for_each(|p| p.normal = mirror(p.normal));
         let camera = Camera::new(&scene.camera, SIZE[0] as f32 / SIZE[1] as f32);
         let Camera { eye, corner, across, down } = camera;
-        let image = Camera { eye: mirror(eye), corner: mirror(corner), across: mirror(across), down: mirror(down) };
+        let flip = glam::DVec3::new(-1.0, 1.0, 1.0);
+        let image = Camera { eye: mirror(eye), corner: corner * flip, across: across * flip, down: down * flip };
         let [original, mirrored] = [compiled(&scene), compiled(&mirrored)];
         for kernel in Kernel::ALL {
             let a = primary_hits(&original, &camera, kernel, SIZE[0], SIZE[1]);

@@ -97,9 +97,13 @@ pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
 /// The whole of a file that is no longer than `limit`.
 fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let io = |source| ReadError::Io { path: path.into(), source };
+    // Asked before it is opened, since opening a pipe waits for somebody to write to it.
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        return Err(ReadError::File { path: path.into(), problem: "not a regular file".into() });
+    }
     let file = File::open(path).map_err(io)?;
     let mut bytes = Vec::new();
-    // The length is asked first to spare the reading, and again afterwards since a device has none.
+    // The length is asked first to spare the reading, and again afterwards since the file may grow.
     if file.metadata().map_err(io)?.len() <= limit {
         file.take(limit + 1).read_to_end(&mut bytes).map_err(io)?;
         if bytes.len() as u64 <= limit {
@@ -109,8 +113,8 @@ fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     Err(ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") })
 }
 
-/// The text with control characters escaped, and cut when it is very long.
-fn one_line(text: impl fmt::Display) -> String {
+/// The text with control characters escaped, and cut when it is very long: safe to show on a terminal.
+pub fn one_line(text: impl fmt::Display) -> String {
     let text = text.to_string();
     let mut line = String::new();
     for c in text.chars().take(MAX_QUOTE) {

@@ -77,7 +77,7 @@ fn vertex<'a>(words: impl Iterator<Item = &'a str>, kept: &mut String) -> Result
         [x, y, z, w] => (Vec3::new(x, y, z) / w, 4),
         _ => return Err(format!("expected 3 numbers, got {}", numbers.len())),
     };
-    check::point(position)?;
+    check::vertex(position)?;
     kept.push('v');
     words[..used].iter().for_each(|word| {
         kept.push(' ');
