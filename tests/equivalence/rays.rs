@@ -31,6 +31,8 @@ pub enum Directions {
     Random,
     /// To the outlines of primitives, and along planes, where culling and tests are decided by a few ε.
     Grazing,
+    /// The same, but most are turned away from it to one side, as rays of a batch that is culled are.
+    OneSided,
     /// Along axes and diagonals, with 0 and −0.
     Axes,
 }
@@ -48,7 +50,8 @@ impl Kind {
     /// Every combination.
     pub fn all() -> impl Iterator<Item = Kind> {
         let origins = [Origins::Flagged, Origins::Shared, Origins::Near, Origins::Apart];
-        let directions = [Directions::Coherent, Directions::Random, Directions::Grazing, Directions::Axes];
+        let directions =
+            [Directions::Coherent, Directions::Random, Directions::Grazing, Directions::OneSided, Directions::Axes];
         origins.into_iter().flat_map(move |origins| {
             let with = move |directions| [false, true].map(|broken| Kind { origins, directions, broken });
             directions.into_iter().flat_map(with)
@@ -65,20 +68,18 @@ struct Bundle {
     width: f32,
     /// The primitive whose outline all rays go for, if they do.
     target: Option<u32>,
+    /// For [`Directions::OneSided`]: the way to the outline, and the side to turn to.
+    edge: Option<[Vec3; 2]>,
 }
 
 /// A random batch of `len` rays.
 pub fn batch(kind: Kind, len: usize, scene: &Scene, place: Place, rng: &mut Pcg) -> RayBatch {
-    let bundle = bundle(kind, scene, place, rng);
+    let bundle = Bundle::new(kind, scene, place, rng);
     let inactive = rng.pick(&[0.0, 0.0, 0.1, 0.5, 1.0]);
     let mut rays = RayBatch::default();
     for i in 0..len {
-        let origin = match kind.origins {
-            Origins::Flagged | Origins::Shared => bundle.base,
-            Origins::Near => bundle.base + rng.cube() * bundle.spread,
-            Origins::Apart => start(scene, place, rng),
-        };
-        let direction = direction(kind, &bundle, scene, origin, rng);
+        let origin = bundle.origin(kind, scene, place, rng);
+        let direction = bundle.direction(kind, scene, origin, rng);
         let t_min = if rng.chance(0.1) { place.scale * rng.range(0.0, 2.0) } else { 0.0 };
         let t_max = if rng.chance(0.2) { place.scale * rng.range(0.0, 4.0) } else { f32::INFINITY };
         rays.push(origin, direction, t_min, t_max);
@@ -99,14 +100,64 @@ pub fn batch(kind: Kind, len: usize, scene: &Scene, place: Place, rng: &mut Pcg)
     rays
 }
 
-fn bundle(kind: Kind, scene: &Scene, place: Place, rng: &mut Pcg) -> Bundle {
-    let target = (kind.directions == Directions::Grazing && rng.chance(0.5)).then(|| any_primitive(scene, rng));
-    Bundle {
-        base: start(scene, place, rng),
-        spread: place.scale * rng.pick(&[0.3, 0.01, 1e-5, 1e-15]),
-        axis: rng.unit(),
-        width: rng.pick(&[0.5, 0.1, 0.01, 1e-4, 1e-7]),
-        target: target.flatten(),
+impl Bundle {
+    fn new(kind: Kind, scene: &Scene, place: Place, rng: &mut Pcg) -> Self {
+        let one_sided = kind.directions == Directions::OneSided;
+        let target = any_primitive(scene, rng).filter(|_| one_sided || rng.chance(0.5));
+        let base = match target {
+            Some(id) if one_sided && kind.origins == Origins::Near => on(scene, id, place, rng),
+            _ => start(scene, place, rng),
+        };
+        let axis = rng.unit();
+        let edge = target.filter(|_| one_sided).map(|id| {
+            let [way, side] = outline(scene, id, base, axis, rng);
+            [way.try_normalize().unwrap_or(axis), side * rng.pick(&[1.0, -1.0])]
+        });
+        Self {
+            base,
+            spread: place.scale * rng.pick(&[0.3, 0.01, 1e-5, 1e-15]),
+            axis,
+            width: rng.pick(&[0.5, 0.1, 0.01, 1e-4, 1e-7]),
+            target,
+            edge,
+        }
+    }
+
+    fn origin(&self, kind: Kind, scene: &Scene, place: Place, rng: &mut Pcg) -> Vec3 {
+        match (kind.origins, self.edge) {
+            (Origins::Flagged | Origins::Shared, _) => self.base,
+            (Origins::Near, Some([_, side])) => {
+                self.base + side * (self.spread * rng.range(0.0, 1.0) * rng.pick(&[0.0, 1.0]))
+            }
+            (Origins::Near, None) => self.base + rng.cube() * self.spread,
+            (Origins::Apart, _) => start(scene, place, rng),
+        }
+    }
+
+    fn direction(&self, kind: Kind, scene: &Scene, origin: Vec3, rng: &mut Pcg) -> Vec3 {
+        // A few ε off, to either side.
+        let off = rng.unit() * rng.pick(&[0.0, 0.0, 1e-7, 1e-6, 1e-4]);
+        match kind.directions {
+            Directions::Coherent => (self.axis + rng.cube() * self.width).normalize(),
+            Directions::Random => rng.unit(),
+            Directions::Grazing => {
+                let target = self.target.or_else(|| any_primitive(scene, rng));
+                let axis = self.axis + rng.cube() * self.width;
+                let way = target.map_or(axis, |id| outline(scene, id, origin, axis, rng)[0]);
+                (way.normalize_or(self.axis) + off).normalize()
+            }
+            Directions::OneSided => {
+                let [way, side] = self.edge.unwrap_or([self.axis, self.axis]);
+                let turned = rng.range(0.0, self.width) * rng.pick(&[0.0, 1.0, 1.0]);
+                (way + side * turned + off * rng.pick(&[0.0, 0.01, 1.0])).normalize()
+            }
+            Directions::Axes => loop {
+                let v = Vec3::from_array([0, 1, 2].map(|_| rng.pick(&[0.0, -0.0, 0.0, -0.0, 1.0, -1.0])));
+                if v != Vec3::ZERO {
+                    return v.normalize();
+                }
+            },
+        }
     }
 }
 
@@ -118,19 +169,7 @@ fn any_primitive(scene: &Scene, rng: &mut Pcg) -> Option<u32> {
 /// Anywhere in the scene, often on a primitive or at the world's origin, sometimes far off.
 fn start(scene: &Scene, place: Place, rng: &mut Pcg) -> Vec3 {
     match rng.below(8) {
-        0 if !scene.spheres.is_empty() => {
-            let i = rng.below(scene.spheres.len());
-            scene.spheres.center(i) + rng.unit() * scene.spheres.radius[i]
-        }
-        1 if !scene.triangles.is_empty() => {
-            let [a, e1, e2] = scene.triangles.corner_and_edges(rng.below(scene.triangles.len()));
-            rng.pick(&[a, a + e1, a + e1 * 0.25 + e2 * 0.5])
-        }
-        2 if !scene.planes.is_empty() => {
-            let i = rng.below(scene.planes.len());
-            let (n, p) = (scene.planes.normal(i), place.point(rng));
-            p - n * ((n.dot(p) + scene.planes.distance[i]) / n.length_squared())
-        }
+        0..3 => any_primitive(scene, rng).map_or(place.center, |id| on(scene, id, place, rng)),
         3 => place.center,
         4 => vec3(0.0, -0.0, 0.0),
         5 => place.center + rng.unit() * (place.scale * 50.0),
@@ -138,43 +177,42 @@ fn start(scene: &Scene, place: Place, rng: &mut Pcg) -> Vec3 {
     }
 }
 
-fn direction(kind: Kind, bundle: &Bundle, scene: &Scene, origin: Vec3, rng: &mut Pcg) -> Vec3 {
-    match kind.directions {
-        Directions::Coherent => (bundle.axis + rng.cube() * bundle.width).normalize(),
-        Directions::Random => rng.unit(),
-        Directions::Grazing => {
-            let target = bundle.target.or_else(|| any_primitive(scene, rng));
-            let way = target.map_or(bundle.axis, |id| graze(scene, id, origin, bundle, rng));
-            // A few ε off, to either side.
-            let off = way + rng.unit() * (rng.pick(&[0.0, 1e-7, 1e-6, 1e-4]) * way.length());
-            off.try_normalize().unwrap_or(bundle.axis)
-        }
-        Directions::Axes => loop {
-            let v = [0, 1, 2].map(|_| rng.pick(&[0.0, -0.0, 0.0, -0.0, 1.0, -1.0]));
-            let v = Vec3::from_array(v);
-            if v != Vec3::ZERO {
-                // Not by glam's normalize: −0 stays −0 in either.
-                return v * (1.0 / v.length());
-            }
-        },
+/// A point on primitive `id`, but for rounding.
+fn on(scene: &Scene, id: u32, place: Place, rng: &mut Pcg) -> Vec3 {
+    if id >= scene.first_triangle() {
+        let [a, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
+        rng.pick(&[a, a + e1, a + e1 * 0.25 + e2 * 0.5])
+    } else if id >= scene.first_sphere() {
+        let i = (id - scene.first_sphere()) as usize;
+        scene.spheres.center(i) + rng.unit() * scene.spheres.radius[i]
+    } else {
+        let (n, p) = (scene.planes.normal(id as usize), place.point(rng));
+        p - n * ((n.dot(p) + scene.planes.distance[id as usize]) / n.length_squared())
     }
 }
 
-/// A way from `origin` to the outline of primitive `id`, or along it.
-fn graze(scene: &Scene, id: u32, origin: Vec3, bundle: &Bundle, rng: &mut Pcg) -> Vec3 {
+/// A way from `origin` to the outline of primitive `id`, or along it, and a unit vector across the outline there.
+fn outline(scene: &Scene, id: u32, origin: Vec3, axis: Vec3, rng: &mut Pcg) -> [Vec3; 2] {
     if id >= scene.first_triangle() {
         let [a, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
+        let normal = e1.cross(e2);
+        if rng.chance(0.3) {
+            return [axis.cross(normal), normal.normalize_or_zero()];
+        }
         let along = rng.range(0.0, 1.0);
-        let edges = [a + e1 * along, a + e2 * along, a + e1 + (e2 - e1) * along, a];
-        rng.pick(&edges) - origin
+        let (corner, edge) = rng.pick(&[(a, e1), (a, e2), (a + e1, e2 - e1)]);
+        let way = corner + edge * along - origin;
+        [way, way.cross(edge).normalize_or_zero()]
     } else if id >= scene.first_sphere() {
         let i = (id - scene.first_sphere()) as usize;
         let (to, radius) = (scene.spheres.center(i) - origin, scene.spheres.radius[i]);
         let sine = radius / to.length();
-        let aside = to.cross(bundle.axis + rng.cube() * bundle.width).normalize_or_zero() * to.length();
-        if sine < 1.0 { to * (1.0 - sine * sine).sqrt() + aside * sine } else { aside }
+        let aside = to.cross(axis).normalize_or_zero();
+        let way = if sine < 1.0 { to * (1.0 - sine * sine).sqrt() + aside * (sine * to.length()) } else { aside };
+        [way, (way.normalize_or_zero() * way.dot(to) / way.length() - to).normalize_or_zero()]
     } else {
-        (bundle.axis + rng.cube() * bundle.width).cross(scene.planes.normal(id as usize))
+        let normal = scene.planes.normal(id as usize);
+        [axis.cross(normal), normal.normalize()]
     }
 }
 

@@ -125,6 +125,25 @@ fn spheres_from_outside() {
     }
 }
 
+/// A planet whose surface passes the world's origin: what rounds is its radius, the points have small coordinates.
+#[test]
+fn spheres_from_outside_next_to_the_origin() {
+    for scale in SCALES {
+        for down in [Vec3::NEG_Y, vec3(0.36, 0.48, 0.8), vec3(-0.6, 0.7, 0.3)] {
+            let planet = 1e4 * scale;
+            let center = down * planet;
+            let mut scene = empty();
+            scene.spheres.push(sphere(center, center.length()));
+            let point = move |rng: &mut Pcg| {
+                let flat = rng.unit().cross(down).normalize() * (scale * rng.range(0.0, 10.0));
+                let normal = (flat - center).normalize();
+                (flat, normal)
+            };
+            Lone::new(scene, scale, format!("planet of {planet} towards {down}"), point).stays_clear();
+        }
+    }
+}
+
 #[test]
 fn triangles() {
     for scale in SCALES {
