@@ -51,7 +51,7 @@
 //! - [`geometry`]: a file a primitive: storage, tests, surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
 //! - [`reference`](mod@reference): the scalar tracer that the others are checked against
-//! - [`files`]: writing files whole or not at all; used by `render` and the command line
+//! - [`files`]: writing files whole or not at all
 //!
 //! # The rules
 //!

@@ -68,7 +68,10 @@ fn materials_are_checked() {
         verdict(|d| d.materials[1].specular = -0.5),
         "materials.\"two words\".specular: must be finite and 0 or more, got -0.5"
     );
-    assert_eq!(verdict(|d| d.materials[0].shininess = 0.0), "materials.grey.shininess: must be above 0 and at most 1e6, got 0");
+    assert_eq!(
+        verdict(|d| d.materials[0].shininess = 0.0),
+        "materials.grey.shininess: must be above 0 and at most 1e6, got 0"
+    );
     let checker = |colors, size| verdict(|d| d.materials[0].pigment = Pigment::Checker { colors, size });
     assert_eq!(checker([Vec3::ONE; 2], 0.0), "materials.grey.checker.size: must be above 0, got 0");
     assert_eq!(
