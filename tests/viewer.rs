@@ -94,7 +94,8 @@ impl Display {
         let pixels = tempfile::tempdir().unwrap();
         let mut command = Command::new("Xvfb");
         command.args(["-displayfd", "1", "-screen", "0", &format!("{}x{}x24", SCREEN.0, SCREEN.1)]);
-        command.args(["-nolisten", "tcp", "-fbdir"]).arg(pixels.path());
+        // Without -noreset the server starts anew, and refuses connections for a moment, whenever its last client goes.
+        command.args(["-noreset", "-nolisten", "tcp", "-fbdir"]).arg(pixels.path());
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut server = Running(command.spawn().unwrap());
         let mut number = String::new();
