@@ -146,6 +146,29 @@ fn coincident_primitives_go_to_the_lowest_id() {
     run(scenes::Kind::Coincident);
 }
 
+/// What decides here is a few ε, in one batch of thousands: many small batches, each beside an outline.
+#[test]
+fn culling_beside_outlines() {
+    let mut scratch = Candidates::default();
+    let directions = rays::Directions::OneSided;
+    for (kind, seed) in [scenes::Kind::Planes, scenes::Kind::Spheres, scenes::Kind::Triangles]
+        .into_iter()
+        .flat_map(|kind| (0..2000).map(move |seed| (kind, seed)))
+    {
+        let mut rng = Pcg::new(1000 + seed);
+        let place = Place::random(&mut rng);
+        let scene = compiled(&scenes::scene(kind, place, &mut rng));
+        for origins in [rays::Origins::Flagged, rays::Origins::Near] {
+            for len in [2, 3, 7, 16] {
+                let rays = rays::Kind { origins, directions, broken: false };
+                let name = format!("{kind:?}, seed {seed}, {rays:?}, {len} rays");
+                let case = Case::new(&scene, rays::batch(rays, len, &scene, place, &mut rng), name);
+                case.check_batch::<f32x8>(&case.rays, &case.expected, "batch", &mut scratch);
+            }
+        }
+    }
+}
+
 /// Origins so close to each other that the square of their distance is no `f32`: still not one origin.
 #[test]
 fn origins_apart_by_next_to_nothing() {

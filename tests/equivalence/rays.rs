@@ -66,6 +66,8 @@ struct Bundle {
     spread: f32,
     axis: Vec3,
     width: f32,
+    /// The share of rays of [`Directions::OneSided`] that are not turned.
+    straight: f32,
     /// The primitive whose outline all rays go for, if they do.
     target: Option<u32>,
     /// For [`Directions::OneSided`]: the way to the outline, and the side to turn to.
@@ -118,6 +120,7 @@ impl Bundle {
             spread: place.scale * rng.pick(&[0.3, 0.01, 1e-5, 1e-15]),
             axis,
             width: rng.pick(&[0.5, 0.1, 0.01, 1e-4, 1e-7]),
+            straight: rng.pick(&[0.3, 0.1, 0.0]),
             target,
             edge,
         }
@@ -148,8 +151,10 @@ impl Bundle {
             }
             Directions::OneSided => {
                 let [way, side] = self.edge.unwrap_or([self.axis, self.axis]);
-                let turned = rng.range(0.0, self.width) * rng.pick(&[0.0, 1.0, 1.0]);
-                (way + side * turned + off * rng.pick(&[0.0, 0.01, 1.0])).normalize()
+                if rng.chance(self.straight) {
+                    return (way + rng.unit() * rng.pick(&[0.0, 1e-7])).normalize();
+                }
+                (way + side * (self.width * rng.range(0.1, 1.0))).normalize()
             }
             Directions::Axes => loop {
                 let v = Vec3::from_array([0, 1, 2].map(|_| rng.pick(&[0.0, -0.0, 0.0, -0.0, 1.0, -1.0])));
