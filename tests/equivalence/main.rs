@@ -153,7 +153,7 @@ fn culling_beside_outlines() {
     let directions = rays::Directions::OneSided;
     for (kind, seed) in [scenes::Kind::Planes, scenes::Kind::Spheres, scenes::Kind::Triangles]
         .into_iter()
-        .flat_map(|kind| (0..2000).map(move |seed| (kind, seed)))
+        .flat_map(|kind| (0..600).map(move |seed| (kind, seed)))
     {
         let mut rng = Pcg::new(1000 + seed);
         let place = Place::random(&mut rng);
