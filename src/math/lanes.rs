@@ -55,6 +55,7 @@ pub trait Lanes:
     /// self · a + b.
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// b − self · a.
+    #[inline(always)]
     fn neg_mul_add(self, a: Self, b: Self) -> Self {
         (-self).mul_add(a, b)
     }
@@ -75,10 +76,12 @@ pub trait Lanes:
     /// self = other.
     fn eq(self, other: Self) -> Self::Mask;
     /// self > other.
+    #[inline(always)]
     fn gt(self, other: Self) -> Self::Mask {
         other.lt(self)
     }
     /// self ≥ other.
+    #[inline(always)]
     fn ge(self, other: Self) -> Self::Mask {
         other.le(self)
     }
@@ -86,10 +89,12 @@ pub trait Lanes:
     fn select(self, mask: Self::Mask, other: Self) -> Self;
 
     /// Zero in every lane.
+    #[inline(always)]
     fn zero() -> Self {
         Self::splat(0.0)
     }
     /// An id in every lane, as the bits of a number; only ever selected and stored.
+    #[inline(always)]
     fn splat_id(id: u32) -> Self {
         Self::splat(f32::from_bits(id))
     }
@@ -106,6 +111,7 @@ pub trait Lanes:
     /// The least lane; unspecified where one is NaN.
     fn least(self) -> f32;
     /// The greatest lane; unspecified where one is NaN.
+    #[inline(always)]
     fn greatest(self) -> f32 {
         -(-self).least()
     }
