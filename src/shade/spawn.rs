@@ -12,7 +12,7 @@
 //!
 //! So the lift is ε (8 s + 9 M), plus 12 ε D for a shadow ray. A ray that starts or ends so far from the surface,
 //! along the normal on the side it belongs to, does not meet it by mistake, and needs no `t_min` and no shortened
-//! `t_max`.
+//! `t_max`; only a ray that ends at a light itself is shortened, for the surface the light may lie on.
 
 use crate::math::{Lanes, Vec3};
 
@@ -26,7 +26,7 @@ pub struct ShadowRay<L> {
     pub origin: Vec3<L>,
     /// Unit direction.
     pub direction: Vec3<L>,
-    /// Distance between light and lifted point: the end of the ray.
+    /// The end of the ray: the lifted point, or just before the light.
     pub t_max: L,
     /// n·l; the light is on the surface's other side when not above zero, or NaN.
     pub cosine: L,
@@ -45,12 +45,14 @@ pub fn shadow_from_light<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<
     ShadowRay { origin: light, direction, t_max, cosine: -normal.dot(direction), inverse }
 }
 
-/// The same ray from `point` to `light`: for a light so far away that a ray from there would miss small things.
+/// The same ray from `point` to `light`: for a light so far away that a ray from there would miss small things. It ends
+/// a lift before the light, by the same bound, so that a surface through the light does not block it.
 #[inline(always)]
 pub fn shadow_from_point<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> ShadowRay<L> {
     let origin = normal.mul_add(lift, point);
-    let (direction, t_max, inverse) = unit(light - origin);
-    ShadowRay { origin, direction, t_max, cosine: normal.dot(direction), inverse }
+    let (direction, length, inverse) = unit(light - origin);
+    let slack = length.mul_add(L::splat(12.0 * ROUNDOFF), light.max_abs() * L::splat(9.0 * ROUNDOFF));
+    ShadowRay { origin, direction, t_max: length - slack, cosine: normal.dot(direction), inverse }
 }
 
 /// A vector's direction, length and the length's inverse.

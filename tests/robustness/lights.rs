@@ -146,7 +146,6 @@ fn a_light_on_a_plane() {
 
 /// So far that shadow rays end at the light.
 #[test]
-#[ignore = "known fault: a shadow ray from the point meets the plane through its light just before t_max"]
 fn a_far_light_on_a_plane() {
     for kernel in Kernel::ALL {
         for distance in [3e3, 1e5] {
