@@ -19,7 +19,7 @@ pub const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct RayBatch {
-    /// Rays at `len` and beyond are inactive; kept so by [`RayBatch::push`] and [`RayBatch::clear`].
+    /// Rays at `len` and beyond are inactive; kept so by [`RayBatch::push`] and [`RayBatch::set_len`].
     pub len: usize,
     /// All active rays start where ray 0 does; nothing else of `origin` is read then. Whoever fills a batch mostly
     /// knows: eye rays and a light's shadow rays do. When false they may still start at one point, only slower.

@@ -52,7 +52,9 @@ pub fn shadow_from_point<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<
     let origin = normal.mul_add(lift, point);
     let (direction, length, inverse) = unit(light - origin);
     let slack = length.mul_add(L::splat(12.0 * ROUNDOFF), light.max_abs() * L::splat(9.0 * ROUNDOFF));
-    ShadowRay { origin, direction, t_max: length - slack, cosine: normal.dot(direction), inverse }
+    // Not below 0, which would mark the ray inactive: a point that close to the light is lit.
+    let t_max = (length - slack).max(L::zero());
+    ShadowRay { origin, direction, t_max, cosine: normal.dot(direction), inverse }
 }
 
 /// A vector's direction, length and the length's inverse.

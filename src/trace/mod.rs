@@ -23,7 +23,7 @@ pub(crate) use query::Nearest;
 /// The nearest hit of every active ray, in packets of `L::WIDTH`.
 ///
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
-/// rays of the batch. `hits` of inactive rays are left as they were.
+/// rays of the batch, unless its own origin is NaN. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
     let Some(bounds) = Bounds::of::<L>(rays) else { return };
     nearest_hits::<L>(scene, rays, &bounds, scratch, |at, active, hit| {
