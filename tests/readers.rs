@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use glam::Vec3;
 use proptest::prelude::*;
-use raypacket::scene::{self, Description, Pigment};
+use raypacket::scene::{self, Description, Pigment, Sky};
 
 fn parse(text: &str) -> Result<Description, String> {
     scene::parse(text, Path::new("s.toml")).map_err(|error| error.to_string())
@@ -51,7 +51,7 @@ fn every_key_is_read() {
     assert_eq!((d.camera.eye, d.camera.look_at), (Vec3::new(1.0, 2.0, 3.0), Vec3::new(4.0, 5.5, 6.0)));
     assert_eq!((d.camera.up, d.camera.fov), (Vec3::Z, 70.0));
     assert_eq!((d.settings.max_depth, d.settings.attenuation, d.settings.ambient), (3, false, Vec3::X * 0.5));
-    assert_eq!((d.sky.color, d.lights[0].position), (Vec3::Z, Vec3::new(7.0, 8.0, 9.0)));
+    assert_eq!((d.sky.clone(), d.lights[0].position), (Sky::Color(Vec3::Z), Vec3::new(7.0, 8.0, 9.0)));
     assert_eq!(d.lights[0].power, Vec3::new(10.0, 11.0, 12.0));
     assert_eq!(d.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(), ["a", "b", "default"]);
     let [a, b, default] = &d.materials[..] else { panic!("three materials") };

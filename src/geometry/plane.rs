@@ -5,7 +5,7 @@
 //! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n|.
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
-use super::{Nearest, Surface, frame};
+use super::{Nearest, Primitives, Surface, frame};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// Planes, column by column.
@@ -32,6 +32,15 @@ pub struct UnitPlane {
     pub axes: [glam::Vec3; 2],
 }
 
+/// A plane as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneRecord {
+    /// Its normal, its greatest component from 1 to 2.
+    pub normal: Vec3<f32>,
+    /// Its offset.
+    pub distance: f32,
+}
+
 /// What a plane's test needs of it and of the rays' origin.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenPlane<L> {
@@ -42,16 +51,6 @@ pub struct SeenPlane<L> {
 }
 
 impl Planes {
-    /// The number of planes.
-    pub fn len(&self) -> usize {
-        self.distance.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.distance.is_empty()
-    }
-
     /// Adds a plane.
     pub fn push(&mut self, normal: glam::Vec3, distance: f32, material: u32) {
         // By a power of two, which changes no bit of any answer, so that the greatest component is from 1 to 2 and
@@ -74,19 +73,56 @@ impl Planes {
     pub fn normal(&self, i: usize) -> glam::Vec3 {
         glam::Vec3::new(self.normal[0][i], self.normal[1][i], self.normal[2][i])
     }
+}
 
-    /// Plane `i` as seen from `origin`.
+impl Primitives for Planes {
+    type Record = PlaneRecord;
+    type Seen<L: Lanes> = SeenPlane<L>;
+    type Aim<L: Lanes> = Vec3<L>;
+
+    fn len(&self) -> usize {
+        self.distance.len()
+    }
     #[inline(always)]
-    pub fn seen<L: Lanes>(&self, i: usize, origin: Vec3<L>) -> SeenPlane<L> {
-        SeenPlane::new(Vec3::splat(self.normal(i)), L::splat(self.distance[i]), origin)
+    fn material(&self, i: usize) -> u32 {
+        self.material[i]
+    }
+    #[inline(always)]
+    fn record(&self, i: usize) -> PlaneRecord {
+        PlaneRecord { normal: self.normal(i).into(), distance: self.distance[i] }
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(r: &PlaneRecord, origin: Vec3<L>) -> SeenPlane<L> {
+        SeenPlane::new(Vec3::splat(r.normal.into()), L::splat(r.distance), origin)
+    }
+    #[inline(always)]
+    fn splat<L: Lanes>(s: &SeenPlane<f32>) -> SeenPlane<L> {
+        SeenPlane { normal: Vec3::splat(s.normal.into()), height: L::splat(s.height) }
+    }
+    #[inline(always)]
+    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
+        direction
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenPlane<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+        nearest(seen, *d, t_min, t_max)
     }
 
-    /// The surface of plane `i` at `point`, which lies near it.
     #[inline(always)]
-    pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
+    fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let normal = Vec3::splat(self.unit[i].normal);
         let height = normal.dot(point) + L::splat(self.unit[i].offset);
         Surface { point: normal.mul_add(-height, point), normal, reach: 0.0 }
+    }
+    #[inline(always)]
+    fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
+        let Vec3 { x, y, .. } = self.checker(i, surface);
+        [x, -y]
+    }
+    #[inline(always)]
+    fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
+        let [t, b] = self.unit[i].axes.map(Vec3::splat);
+        Vec3::new(surface.point.dot(t), surface.point.dot(b), L::zero())
     }
 }
 
@@ -106,14 +142,6 @@ impl<L: Lanes> SeenPlane<L> {
     }
 }
 
-impl SeenPlane<f32> {
-    /// The same in every lane.
-    #[inline(always)]
-    pub fn splat<L: Lanes>(&self) -> SeenPlane<L> {
-        SeenPlane { normal: Vec3::splat(self.normal.into()), height: L::splat(self.height) }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,7 +150,7 @@ mod tests {
     fn hit(normal: glam::Vec3, distance: f32, origin: glam::Vec3, direction: glam::Vec3) -> Option<f32> {
         let mut planes = Planes::default();
         planes.push(normal, distance, 0);
-        nearest(&planes.seen(0, origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
+        nearest(&Planes::seen(&planes.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
 
     #[test]

@@ -13,18 +13,29 @@
 //!
 //! A ray that touches the sphere hits it when the computed discriminant is not negative.
 
-use super::{Nearest, Surface};
-use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3};
+use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface};
+use crate::math::{LaneMask, Lanes, Vec3, angle};
 
-/// Spheres, column by column; centres and radii are padded with zeros to a multiple of [`MOST_LANES`].
+/// Spheres, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spheres {
-    /// Centres.
-    pub center: [Vec<f32>; 3],
-    /// Radii, above zero.
-    pub radius: Vec<f32>,
+    /// The spheres' own surfaces; radii above zero.
+    pub balls: Balls,
+    /// Which side of each is there.
+    pub sides: Vec<Sides>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+}
+
+/// A sphere as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct SphereRecord {
+    /// Its centre.
+    pub center: Vec3<f32>,
+    /// Its radius.
+    pub radius: f32,
+    /// Which side is there.
+    pub sides: Sides,
 }
 
 /// What a sphere's test needs of it and of the rays' origin.
@@ -36,75 +47,122 @@ pub struct SeenSphere<L> {
     pub c: L,
     /// r².
     pub r2: L,
+    /// Which side is there.
+    pub sides: Sides,
 }
 
 impl Spheres {
-    /// The number of spheres.
-    pub fn len(&self) -> usize {
-        self.material.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.material.is_empty()
-    }
-
     /// Adds a sphere.
-    pub fn push(&mut self, center: glam::Vec3, radius: f32, material: u32) {
-        let i = self.len();
+    pub fn push(&mut self, center: glam::Vec3, radius: f32, sides: Sides, material: u32) {
+        self.balls.push(center, radius);
+        self.sides.push(sides);
         self.material.push(material);
-        let padded = self.len().next_multiple_of(MOST_LANES);
-        for (column, value) in
-            self.center.iter_mut().chain([&mut self.radius]).zip([center.x, center.y, center.z, radius])
-        {
-            column.resize(padded, 0.0);
-            column[i] = value;
-        }
     }
 
     /// Sphere `i`'s centre.
     pub fn center(&self, i: usize) -> glam::Vec3 {
-        glam::Vec3::new(self.center[0][i], self.center[1][i], self.center[2][i])
+        self.balls.center(i)
     }
 
-    /// Sphere `i` as seen from `origin`.
+    /// Sphere `i`'s radius.
+    pub fn radius(&self, i: usize) -> f32 {
+        self.balls.radius[i]
+    }
+}
+
+impl Bounded for Spheres {
+    fn balls(&self) -> &Balls {
+        &self.balls
+    }
+}
+
+impl Primitives for Spheres {
+    type Record = SphereRecord;
+    type Seen<L: Lanes> = SeenSphere<L>;
+    type Aim<L: Lanes> = Vec3<L>;
+
+    fn len(&self) -> usize {
+        self.material.len()
+    }
     #[inline(always)]
-    pub fn seen<L: Lanes>(&self, i: usize, origin: Vec3<L>) -> SeenSphere<L> {
-        SeenSphere::new(Vec3::splat(self.center(i)), L::splat(self.radius[i]), origin)
+    fn material(&self, i: usize) -> u32 {
+        self.material[i]
+    }
+    #[inline(always)]
+    fn record(&self, i: usize) -> SphereRecord {
+        SphereRecord { center: self.center(i).into(), radius: self.radius(i), sides: self.sides[i] }
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(r: &SphereRecord, origin: Vec3<L>) -> SeenSphere<L> {
+        SeenSphere::new(Vec3::splat(r.center.into()), L::splat(r.radius), r.sides, origin)
+    }
+    #[inline(always)]
+    fn splat<L: Lanes>(s: &SeenSphere<f32>) -> SeenSphere<L> {
+        SeenSphere { f: Vec3::splat(s.f.into()), c: L::splat(s.c), r2: L::splat(s.r2), sides: s.sides }
+    }
+    #[inline(always)]
+    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
+        direction
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenSphere<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+        if SIDED { one_sided(seen, *d, t_min, t_max) } else { stable(seen, *d, t_min, t_max) }
     }
 
-    /// The surface of sphere `i` at `point`, which lies near it.
     #[inline(always)]
-    pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
+    fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let center = Vec3::splat(self.center(i));
-        let radius = self.radius[i];
+        let radius = self.radius(i);
         let normal = (point - center).normalize();
         Surface { point: normal.mul_add(L::splat(radius), center), normal, reach: radius }
+    }
+    #[inline(always)]
+    fn uv<L: Lanes>(&self, _i: usize, surface: &Surface<L>) -> [L; 2] {
+        let n = surface.normal;
+        [angle::turn(n.x, n.z), angle::height(n.y)]
+    }
+    #[inline(always)]
+    fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
+        surface.point - Vec3::splat(self.center(i))
     }
 }
 
 impl<L: Lanes> SeenSphere<L> {
     /// A sphere as seen from `origin`.
     #[inline(always)]
-    pub fn new(center: Vec3<L>, radius: L, origin: Vec3<L>) -> Self {
+    pub fn new(center: Vec3<L>, radius: L, sides: Sides, origin: Vec3<L>) -> Self {
         let f = origin - center;
         let r2 = radius * radius;
-        Self { f, c: f.dot(f) - r2, r2 }
-    }
-}
-
-impl SeenSphere<f32> {
-    /// The same in every lane.
-    #[inline(always)]
-    pub fn splat<L: Lanes>(&self) -> SeenSphere<L> {
-        SeenSphere { f: Vec3::splat(self.f.into()), c: L::splat(self.c), r2: L::splat(self.r2) }
+        Self { f, c: f.dot(f) - r2, r2, sides }
     }
 }
 
 /// The default; see the module's text.
 #[inline(always)]
 pub fn stable<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let SeenSphere { f, c, r2 } = *seen;
+    let (near, far, possible) = roots(seen, direction)?;
+    let t = near.select(near.gt(t_min), far);
+    let inside = possible & t.gt(t_min) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
+/// [`stable`], for a sphere of which only one side is there.
+#[inline(always)]
+pub fn one_sided<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    let (near, far, possible) = roots(seen, direction)?;
+    let t = match seen.sides {
+        Sides::Both => near.select(near.gt(t_min), far),
+        Sides::Front => near,
+        Sides::Back => far,
+    };
+    let inside = possible & t.gt(t_min) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
+/// Where the ray enters and leaves, and the lanes in which it may; `None` when it cannot in any.
+#[inline(always)]
+fn roots<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>) -> Option<(L, L, L::Mask)> {
+    let SeenSphere { f, c, r2, .. } = *seen;
     let b = f.dot(direction);
     // The vector from the centre to the ray's closest point: its length does not cancel as b² − c does.
     let closest = direction.mul_add(-b, f);
@@ -118,11 +176,7 @@ pub fn stable<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_ma
     let ahead = b.lt(L::zero());
     let q = (root - b).select(ahead, -(b + root));
     let other = c / q;
-    let near = other.select(ahead, q);
-    let far = q.select(ahead, other);
-    let t = near.select(near.gt(t_min), far);
-    let inside = possible & t.gt(t_min) & t.lt(t_max);
-    inside.any().then_some((t, inside))
+    Some((other.select(ahead, q), q.select(ahead, other), possible))
 }
 
 /// The textbook's; see the module's text.
@@ -166,8 +220,8 @@ mod tests {
 
     fn t(method: Method, center: V, radius: f32, origin: V, direction: V) -> Option<f32> {
         let mut spheres = Spheres::default();
-        spheres.push(center, radius, 0);
-        method(&spheres.seen(0, origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
+        spheres.push(center, radius, Sides::Both, 0);
+        method(&Spheres::seen(&spheres.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
 
     #[test]

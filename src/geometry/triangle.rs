@@ -1,38 +1,275 @@
-//! The triangle v0, v0 + e1, v0 + e2, seen from both sides.
+//! The triangle with corners a, b, c; its front is where they run counter-clockwise. A triangle without area is never
+//! hit, and neither is one seen edge-on.
 //!
-//! One method: [`moller_trumbore`] (Möller, Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its
-//! determinants expanded along the direction instead of the edges: with T = o − v0 and N = e1 × e2,
+//! Two methods:
 //!
-//! det = d·N, u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det
+//! - [`watertight`]: the default. After Woop, Benthin, Wald, *Watertight Ray/Triangle Intersection*, JCGT 2 (2013),
+//!   §3: the corners are projected along the ray, each by itself and so alike for all triangles that share it, and the
+//!   sign of every edge function x y' − y x' is exact, since both products round the same way; so no ray slips
+//!   between triangles that share an edge or a corner. Three deviations: the projection is onto two axes across the
+//!   ray ([`Aim`]) instead of a shear along its largest component, which would differ among the rays of a packet; an edge
+//!   function of 0 is not computed again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within
+//!   what the corners lie at along the ray, which stays right edge-on and keeps t's sign right next to the plane.
+//! - [`moller_trumbore`] (*Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its determinants expanded along
+//!   the direction instead of the edges: with T = o − a, e1 = b − a, e2 = c − a and N = e1 × e2, det = d·N,
+//!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two
+//!   triangles that share an edge.
 //!
-//! so that everything but three scalar products belongs to the origin. The plane is missed by at most
-//! 8 ε (|T| + longest edge) / sin of the smallest angle. A triangle without area is never hit; an edge belongs to
-//! both triangles that share it, but rounding may open a crack of some ε |T| between them.
+//! The plane is missed by at most 8 ε (|o − a| + longest edge) / sin of the smallest angle, by both.
 
-use super::{Nearest, Surface};
-use crate::math::{LaneMask, Lanes, Vec3};
+use super::{Nearest, Primitives, Sides, Surface, frame};
+use crate::math::{LaneMask, Lanes, NONE, Vec3};
 
 /// Triangles, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangles {
-    /// First corners.
-    pub v0: [Vec<f32>; 3],
-    /// Second corner − first.
-    pub e1: [Vec<f32>; 3],
-    /// Third corner − first.
-    pub e2: [Vec<f32>; 3],
+    /// The corners a, b, c, a column a component.
+    pub corners: [[Vec<f32>; 3]; 3],
     /// Unit normals, zero for a triangle without area; for shading.
     pub unit: Vec<glam::Vec3>,
     /// The longest edge over the sine of the angle at the first corner: what the rounding of the test is
     /// proportional to, as N's is to |e1| |e2|.
     pub reach: Vec<f32>,
+    /// Which side of each is there.
+    pub sides: Vec<Sides>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    /// Normals at the corners; none where no triangle has any.
+    pub normals: Attribute<glam::Vec3>,
+    /// Texture coordinates at the corners; none where no triangle has any.
+    pub uvs: Attribute<glam::Vec2>,
 }
 
-/// What a triangle's test needs of it and of the rays' origin.
+/// What vertices have beside their place, shared by the triangles around them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attribute<T> {
+    /// By vertex.
+    pub values: Vec<T>,
+    /// The corners' vertices, for every triangle up to the last that has any; [`NONE`] for one that has not.
+    pub corners: Vec<[u32; 3]>,
+}
+
+impl<T: Copy> Attribute<T> {
+    /// Gives triangle `i`, which is later than all that have this attribute so far, its corners' vertices.
+    pub fn set(&mut self, i: usize, corners: [u32; 3]) {
+        self.corners.resize(i, [NONE; 3]);
+        self.corners.push(corners);
+    }
+
+    /// The values at triangle `i`'s corners.
+    #[inline(always)]
+    fn at(&self, i: usize) -> Option<[T; 3]> {
+        let corners = self.corners.get(i).filter(|c| c[0] != NONE)?;
+        Some(corners.map(|c| self.values[c as usize]))
+    }
+}
+
+/// A triangle as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleRecord {
+    /// a, b, c.
+    pub corners: [Vec3<f32>; 3],
+    /// N = (b − a) × (c − a).
+    pub n: Vec3<f32>,
+    /// Which side is there.
+    pub sides: Sides,
+}
+
+/// What [`watertight`] needs of a triangle and of the rays' origin.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenTriangle<L> {
+    /// The corners, from the origin.
+    pub corners: [Vec3<L>; 3],
+    /// N.
+    pub n: Vec3<L>,
+    /// a·N, from the origin.
+    pub height: L,
+    /// Which side is there.
+    pub sides: Sides,
+}
+
+/// A unit direction and two axes across it.
+///
+/// Duff et al., *Building an Orthonormal Basis, Revisited*, JCGT 6 (2017): within a few ε of perpendicular.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim<L> {
+    /// d.
+    pub direction: Vec3<L>,
+    x: Vec3<L>,
+    y: Vec3<L>,
+}
+
+impl<L: Lanes> Aim<L> {
+    /// For unit directions.
+    #[inline(always)]
+    pub fn new(direction: Vec3<L>) -> Self {
+        let Vec3 { x, y, z } = direction;
+        let one = L::splat(1.0);
+        let sign = (-one).select(z.lt(L::zero()), one);
+        let a = -one / (sign + z);
+        let b = x * y * a;
+        Self {
+            direction,
+            x: Vec3::new((sign * x * x).mul_add(a, one), sign * b, -(sign * x)),
+            y: Vec3::new(b, (y * y).mul_add(a, sign), -y),
+        }
+    }
+}
+
+impl Triangles {
+    /// Adds a triangle by its corners.
+    pub fn push(&mut self, corners: [glam::Vec3; 3], sides: Sides, material: u32) {
+        for (columns, corner) in self.corners.iter_mut().zip(corners) {
+            columns.iter_mut().zip(corner.to_array()).for_each(|(column, value)| column.push(value));
+        }
+        self.sides.push(sides);
+        self.material.push(material);
+        // In f64, where no product of lengths overflows or vanishes.
+        let [a, b, c] = corners;
+        let [e1, e2] = [(b - a).as_dvec3(), (c - a).as_dvec3()];
+        let n = e1.cross(e2);
+        let longest = e1.length().max(e2.length()).max((e2 - e1).length());
+        self.unit.push(n.try_normalize().unwrap_or_default().as_vec3());
+        self.reach.push((longest * (e1.length() * e2.length() / n.length()).max(1.0)) as f32);
+    }
+
+    /// The corners of triangle `i`.
+    #[inline(always)]
+    pub fn corners(&self, i: usize) -> [glam::Vec3; 3] {
+        let at = |c: &[Vec<f32>; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
+        [at(&self.corners[0]), at(&self.corners[1]), at(&self.corners[2])]
+    }
+
+    /// The first corner and the edges from there to the others.
+    #[inline(always)]
+    pub fn corner_and_edges(&self, i: usize) -> [glam::Vec3; 3] {
+        let [a, b, c] = self.corners(i);
+        [a, b - a, c - a]
+    }
+
+    /// The barycentric coordinates of b and c at a point of the plane.
+    #[inline(always)]
+    fn barycentric<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [L; 2] {
+        let [a, e1, e2] = self.corner_and_edges(i).map(Vec3::splat);
+        let unit = Vec3::splat(self.unit[i]);
+        let q = point - a;
+        let per_area = L::splat(1.0) / unit.dot(e1.cross(e2));
+        [unit.dot(q.cross(e2)) * per_area, unit.dot(e1.cross(q)) * per_area]
+    }
+
+    /// The unit normal for shading, interpolated where there are vertex normals, and on the side of the geometric one
+    /// that `surface` has, turned or not.
+    #[inline(always)]
+    pub fn shading_normal<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
+        let Some(normals) = self.normals.at(i) else { return surface.normal };
+        let [u, v] = self.barycentric(i, surface.point);
+        let [a, b, c] = normals.map(Vec3::splat);
+        let n = c.mul_add(v, b.mul_add(u, a * (L::splat(1.0) - u - v)));
+        let length2 = n.dot(n);
+        let n = n * (L::splat(1.0) / length2.sqrt());
+        let n = (-n).select(n.dot(surface.normal).lt(L::zero()), n);
+        // Normals that cancel out leave the triangle's own.
+        n.select(length2.gt(L::splat(1e-12)), surface.normal)
+    }
+}
+
+impl Primitives for Triangles {
+    type Record = TriangleRecord;
+    type Seen<L: Lanes> = SeenTriangle<L>;
+    type Aim<L: Lanes> = Aim<L>;
+
+    fn len(&self) -> usize {
+        self.material.len()
+    }
+    #[inline(always)]
+    fn material(&self, i: usize) -> u32 {
+        self.material[i]
+    }
+    #[inline(always)]
+    fn record(&self, i: usize) -> TriangleRecord {
+        let corners = self.corners(i).map(Vec3::from);
+        let [a, b, c] = corners;
+        TriangleRecord { corners, n: (b - a).cross(c - a), sides: self.sides[i] }
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(r: &TriangleRecord, origin: Vec3<L>) -> SeenTriangle<L> {
+        let corners = r.corners.map(|c| Vec3::splat(c.into()) - origin);
+        let n = Vec3::splat(r.n.into());
+        SeenTriangle { corners, n, height: corners[0].dot(n), sides: r.sides }
+    }
+    #[inline(always)]
+    fn splat<L: Lanes>(s: &SeenTriangle<f32>) -> SeenTriangle<L> {
+        SeenTriangle {
+            corners: s.corners.map(|c| Vec3::splat(c.into())),
+            n: Vec3::splat(s.n.into()),
+            height: L::splat(s.height),
+            sides: s.sides,
+        }
+    }
+    #[inline(always)]
+    fn aim<L: Lanes>(direction: Vec3<L>) -> Aim<L> {
+        Aim::new(direction)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
+        if !SIDED || seen.sides == Sides::Both {
+            return watertight(seen, aim, t_min, t_max);
+        }
+        // From the front the ray runs against N.
+        let along = seen.n.dot(aim.direction);
+        let there = match seen.sides {
+            Sides::Front => along.lt(L::zero()),
+            _ => along.gt(L::zero()),
+        };
+        let (t, inside) = watertight(seen, aim, t_min, t_max)?;
+        let inside = inside & there;
+        inside.any().then_some((t, inside))
+    }
+
+    #[inline(always)]
+    fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
+        let normal = Vec3::splat(self.unit[i]);
+        let height = normal.dot(point - Vec3::splat(self.corners(i)[0]));
+        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
+    }
+    #[inline(always)]
+    fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
+        let [u, v] = self.barycentric(i, surface.point);
+        let Some([a, b, c]) = self.uvs.at(i) else { return [u, v] };
+        let w = L::splat(1.0) - u - v;
+        let at = |a: f32, b: f32, c: f32| L::splat(c).mul_add(v, L::splat(b).mul_add(u, L::splat(a) * w));
+        [at(a.x, b.x, c.x), at(a.y, b.y, c.y)]
+    }
+    #[inline(always)]
+    fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
+        let [t, b] = frame(self.unit[i]).map(Vec3::splat);
+        Vec3::new(surface.point.dot(t), surface.point.dot(b), L::zero())
+    }
+}
+
+/// The default; see the module's text.
+#[inline(always)]
+pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
+    let [a, b, c] = seen.corners;
+    let [ax, bx, cx] = [a.dot(aim.x), b.dot(aim.x), c.dot(aim.x)];
+    let [ay, by, cy] = [a.dot(aim.y), b.dot(aim.y), c.dot(aim.y)];
+    // Not fused: a product that is not rounded would be compared with one that is.
+    let (u, v, w) = (cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax);
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let inside = least.ge(L::zero()) | most.le(L::zero());
+    if !inside.any() {
+        return None;
+    }
+    let along = seen.n.dot(aim.direction);
+    let [az, bz, cz] = [a.dot(aim.direction), b.dot(aim.direction), c.dot(aim.direction)];
+    let t = (seen.height / along).max(az.min(bz).min(cz)).min(az.max(bz).max(cz));
+    let inside = inside & !along.eq(L::zero()) & t.gt(t_min) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
+/// What [`moller_trumbore`] needs of a triangle and of the rays' origin.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenEdges<L> {
     /// N = e1 × e2.
     pub n: Vec3<L>,
     /// T × e2.
@@ -43,78 +280,25 @@ pub struct SeenTriangle<L> {
     pub height: L,
 }
 
-impl Triangles {
-    /// The number of triangles.
-    pub fn len(&self) -> usize {
-        self.material.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.material.is_empty()
-    }
-
-    /// Adds a triangle by its corners.
-    pub fn push(&mut self, corners: [glam::Vec3; 3], material: u32) {
-        let [a, b, c] = corners;
-        for axis in 0..3 {
-            self.v0[axis].push(a[axis]);
-            self.e1[axis].push((b - a)[axis]);
-            self.e2[axis].push((c - a)[axis]);
-        }
-        self.material.push(material);
-        // In f64, where no product of lengths overflows or vanishes.
-        let [e1, e2] = [(b - a).as_dvec3(), (c - a).as_dvec3()];
-        let n = e1.cross(e2);
-        let longest = e1.length().max(e2.length()).max((e2 - e1).length());
-        self.unit.push(n.try_normalize().unwrap_or_default().as_vec3());
-        self.reach.push((longest * (e1.length() * e2.length() / n.length()).max(1.0)) as f32);
-    }
-
-    /// First corner and two edges of triangle `i`.
-    #[inline(always)]
-    pub fn corner_and_edges(&self, i: usize) -> [glam::Vec3; 3] {
-        [&self.v0, &self.e1, &self.e2].map(|c| glam::Vec3::new(c[0][i], c[1][i], c[2][i]))
-    }
-
-    /// Triangle `i` as seen from `origin`.
-    #[inline(always)]
-    pub fn seen<L: Lanes>(&self, i: usize, origin: Vec3<L>) -> SeenTriangle<L> {
-        let [v0, e1, e2] = self.corner_and_edges(i).map(Vec3::splat);
-        SeenTriangle::new(v0, e1, e2, origin)
-    }
-
-    /// The surface of triangle `i` at `point`, which lies near its plane.
-    #[inline(always)]
-    pub fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        let normal = Vec3::splat(self.unit[i]);
-        let height = normal.dot(point - Vec3::splat(self.corner_and_edges(i)[0]));
-        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
-    }
-}
-
-impl<L: Lanes> SeenTriangle<L> {
+impl SeenEdges<f32> {
     /// A triangle as seen from `origin`.
-    #[inline(always)]
-    pub fn new(v0: Vec3<L>, e1: Vec3<L>, e2: Vec3<L>, origin: Vec3<L>) -> Self {
-        let n = e1.cross(e2);
-        let t = origin - v0;
-        Self { n, u: t.cross(e2), v: e1.cross(t), height: -t.dot(n) }
+    pub fn new(r: &TriangleRecord, origin: Vec3<f32>) -> Self {
+        let [a, b, c] = r.corners;
+        let (t, e1, e2) = (origin - a, b - a, c - a);
+        Self { n: r.n, u: t.cross(e2), v: e1.cross(t), height: -t.dot(r.n) }
     }
-}
 
-impl SeenTriangle<f32> {
     /// The same in every lane.
     #[inline(always)]
-    pub fn splat<L: Lanes>(&self) -> SeenTriangle<L> {
+    pub fn splat<L: Lanes>(&self) -> SeenEdges<L> {
         let [n, u, v] = [self.n, self.u, self.v].map(|a| Vec3::splat(a.into()));
-        SeenTriangle { n, u, v, height: L::splat(self.height) }
+        SeenEdges { n, u, v, height: L::splat(self.height) }
     }
 }
 
 /// See the module's text.
 #[inline(always)]
-pub fn moller_trumbore<L: Lanes>(seen: &SeenTriangle<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn moller_trumbore<L: Lanes>(seen: &SeenEdges<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
     let inverse = L::splat(1.0) / seen.n.dot(direction);
     let t = seen.height * inverse;
     let inside = t.gt(t_min) & t.lt(t_max);
@@ -134,8 +318,13 @@ mod tests {
 
     fn hit(corners: [V; 3], origin: V, direction: V) -> Option<f32> {
         let mut triangles = Triangles::default();
-        triangles.push(corners, 0);
-        moller_trumbore(&triangles.seen(0, origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
+        triangles.push(corners, Sides::Both, 0);
+        let record = triangles.record(0);
+        let (o, aim) = (Vec3::from(origin), Aim::new(direction.into()));
+        let found = watertight(&Triangles::seen(&record, o), &aim, 0.0, f32::INFINITY).map(|(t, _)| t);
+        let edges = SeenEdges::new(&record, o);
+        assert_eq!(moller_trumbore(&edges, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
+        found
     }
 
     const UNIT: [V; 3] = [V::ZERO, V::X, V::Y];

@@ -1,6 +1,7 @@
 //! The mathematics of a packet: [`Lanes`] (1, 4 or 8 numbers at once), [`Vec3`] over them, rays and hits in
 //! structure-of-arrays batches, and a few scalar functions with stated errors.
 
+pub mod angle;
 mod batch;
 mod isa;
 mod lanes;

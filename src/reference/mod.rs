@@ -1,7 +1,7 @@
 //! The scalar `f64` reference tracer: slow, plain, and the measure of everything else.
 //!
 //! It proves the packet tracer's answers, so it shares nothing with it but the [`Description`]: one ray at a
-//! time, an array of structs per kind, textbook formulae, no acceleration structure, recursion for mirrors. A
+//! time, a list of primitives, textbook formulae, no acceleration structure, recursion for mirrors. A
 //! fault in a packet kernel cannot hide in its own check.
 //!
 //! - [`Tracer`]: nearest hit ([`Tracer::intersect`]), any hit ([`Tracer::blocked`]) and Whitted shading
@@ -10,53 +10,72 @@
 //! - [`render`] and [`hits`]: whole pictures, in the caller's rayon pool.
 //!
 //! All vectors are `f64`; directions have unit length, lengths are in world units, colours are linear RGB.
-use crate::scene::{Description, Light, Material, Settings};
-use glam::DVec3;
+use crate::scene::{Description, Light, Material, Settings, Sky, Texture};
+use glam::{DVec2, DVec3};
+use std::fmt::Debug;
+use std::sync::Arc;
 
 mod camera;
+mod cone;
+mod cuboid;
+mod cylinder;
+mod fractal;
 mod image;
 mod plane;
+mod quad;
 mod shade;
 mod sphere;
+mod texture;
+mod torus;
 mod triangle;
 
 pub use camera::Camera;
 pub use image::{hits, render, render_with_progress};
 pub use shade::Rounding;
 
-use plane::Plane;
-use sphere::Sphere;
-use triangle::Triangle;
-
 /// A nearest hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Distance along the unit direction.
     pub t: f64,
-    /// Primitive id: planes first, then spheres, then the triangles of all meshes in order.
+    /// Primitive id; ids count through the kinds in the order of the [`Description`]'s fields.
     pub primitive: u32,
     /// Unit geometric normal, turned against the ray.
     pub normal: DVec3,
 }
 
-/// A scene to trace, one ray at a time.
-#[derive(Clone, Debug)]
-pub struct Tracer {
-    planes: Vec<Plane>,
-    spheres: Vec<Sphere>,
-    triangles: Vec<Triangle>,
-    materials: Vec<Material>,
-    lights: Vec<Light>,
-    sky: DVec3,
-    settings: Settings,
+/// One primitive, whatever its kind.
+trait Primitive: Debug + Send + Sync {
+    /// The first distance above 0 at which the ray meets the sides that are there.
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64>;
+    /// The point of the surface nearest to a point close to it.
+    fn project(&self, point: DVec3) -> DVec3;
+    /// The unit geometric normal at a point close to the surface, as described or wound, or outward.
+    fn normal(&self, point: DVec3) -> DVec3;
+    /// The normal for shading, where it is another; on either side.
+    fn shading_normal(&self, point: DVec3) -> DVec3 {
+        self.normal(point)
+    }
+    /// The primitive's own size, 0 for a plane.
+    fn extent(&self) -> f64;
+    /// Index into the materials.
+    fn material(&self) -> usize;
+    /// Texture coordinates at a point of the surface.
+    fn uv(&self, point: DVec3) -> DVec2;
+    /// The coordinates a checkerboard is laid in; 0 for the third where it is flat.
+    fn checker(&self, point: DVec3) -> DVec3;
 }
 
-/// One primitive, found by its id.
-#[derive(Clone, Copy)]
-enum Primitive<'a> {
-    Plane(&'a Plane),
-    Sphere(&'a Sphere),
-    Triangle(&'a Triangle),
+/// A scene to trace, one ray at a time.
+#[derive(Debug)]
+pub struct Tracer {
+    /// By id.
+    primitives: Vec<Box<dyn Primitive>>,
+    materials: Vec<Material>,
+    textures: Vec<Arc<Texture>>,
+    lights: Vec<Light>,
+    sky: Sky,
+    settings: Settings,
 }
 
 impl Tracer {
@@ -65,17 +84,24 @@ impl Tracer {
     /// # Panics
     /// When a mesh names a vertex that does not exist ([`crate::scene::check`] finds that).
     pub fn new(scene: &Description) -> Self {
-        let triangles = scene.meshes.iter().flat_map(|mesh| {
-            let corner = |i: u32| mesh.positions[i as usize].as_dvec3();
-            mesh.triangles.iter().map(move |t| Triangle::new(t.map(corner), mesh.material))
-        });
+        let mut primitives: Vec<Box<dyn Primitive>> = Vec::new();
+        scene.planes.iter().for_each(|p| primitives.push(Box::new(plane::Plane::new(p))));
+        scene.spheres.iter().for_each(|s| primitives.push(Box::new(sphere::Sphere::new(s))));
+        for mesh in &scene.meshes {
+            (0..mesh.triangles.len()).for_each(|i| primitives.push(Box::new(triangle::Triangle::new(mesh, i))));
+        }
+        scene.quads.iter().for_each(|q| primitives.push(Box::new(quad::Quad::new(q))));
+        scene.cuboids.iter().for_each(|c| primitives.push(Box::new(cuboid::Cuboid::new(c))));
+        scene.cylinders.iter().for_each(|c| primitives.push(Box::new(cylinder::Cylinder::new(c))));
+        scene.cones.iter().for_each(|c| primitives.push(Box::new(cone::Cone::new(c))));
+        scene.tori.iter().for_each(|t| primitives.push(Box::new(torus::Torus::new(t))));
+        scene.fractals.iter().for_each(|f| primitives.push(Box::new(fractal::Fractal::new(f))));
         Self {
-            planes: scene.planes.iter().map(Plane::new).collect(),
-            spheres: scene.spheres.iter().map(Sphere::new).collect(),
-            triangles: triangles.collect(),
+            primitives,
             materials: scene.materials.clone(),
+            textures: scene.textures.clone(),
             lights: scene.lights.clone(),
-            sky: scene.sky.color.as_dvec3(),
+            sky: scene.sky.clone(),
             settings: scene.settings,
         }
     }
@@ -91,9 +117,9 @@ impl Tracer {
                 nearest = Some(id);
             }
         });
-        nearest.map(|id| {
-            let normal = self.normal(id, origin + t_max * direction);
-            Hit { t: t_max, primitive: id, normal: turned(normal, direction) }
+        nearest.map(|id: usize| {
+            let normal = self.primitives[id].normal(origin + t_max * direction);
+            Hit { t: t_max, primitive: id as u32, normal: turned(normal, direction) }
         })
     }
 
@@ -104,44 +130,33 @@ impl Tracer {
 
     /// A primitive's own size: a sphere's radius, a triangle's longest edge, 0 for planes and unknown ids.
     pub fn extent(&self, id: u32) -> f64 {
-        match self.primitive(id) {
-            Some(Primitive::Sphere(sphere)) => sphere.radius,
-            Some(Primitive::Triangle(triangle)) => triangle.longest_edge(),
-            Some(Primitive::Plane(_)) | None => 0.0,
-        }
+        self.primitives.get(id as usize).map_or(0.0, |p| p.extent())
     }
 
     /// Every primitive the ray hits at t > 0, with its first such t, in the order of ids.
-    fn distances(&self, origin: DVec3, direction: DVec3) -> impl Iterator<Item = (u32, f64)> {
-        let planes = self.planes.iter().map(move |p| p.distance(origin, direction));
-        let spheres = self.spheres.iter().map(move |s| s.distance(origin, direction));
-        let triangles = self.triangles.iter().map(move |t| t.distance(origin, direction));
-        let all = planes.chain(spheres).chain(triangles).enumerate();
-        all.filter_map(|(id, t)| t.map(|t| (id as u32, t)))
-    }
-
-    fn primitive(&self, id: u32) -> Option<Primitive<'_>> {
-        let sphere = (id as usize).wrapping_sub(self.planes.len());
-        let triangle = sphere.wrapping_sub(self.spheres.len());
-        None.or(self.planes.get(id as usize).map(Primitive::Plane))
-            .or(self.spheres.get(sphere).map(Primitive::Sphere))
-            .or(self.triangles.get(triangle).map(Primitive::Triangle))
-    }
-
-    /// The unit normal as described or wound: not turned towards anyone.
-    fn normal(&self, id: u32, point: DVec3) -> DVec3 {
-        match self.primitive(id) {
-            Some(Primitive::Plane(plane)) => plane.normal,
-            Some(Primitive::Sphere(sphere)) => sphere.normal(point),
-            Some(Primitive::Triangle(triangle)) => triangle.normal,
-            None => DVec3::ZERO,
-        }
+    fn distances(&self, origin: DVec3, direction: DVec3) -> impl Iterator<Item = (usize, f64)> {
+        let all = self.primitives.iter().enumerate();
+        all.filter_map(move |(id, p)| p.distance(origin, direction).map(|t| (id, t)))
     }
 }
 
 /// `normal`, turned against `direction`.
 fn turned(normal: DVec3, direction: DVec3) -> DVec3 {
     if normal.dot(direction) > 0.0 { -normal } else { normal }
+}
+
+/// Two axes in a surface with unit normal n: T is the projection of x, or of z where n.x is the greatest component; B =
+/// T × n.
+fn axes(n: DVec3) -> [DVec3; 2] {
+    let [x, y, z] = n.abs().to_array();
+    let across = if (y >= x && y >= z) || x < z { DVec3::X } else { DVec3::Z };
+    let tangent = (across - n * n.dot(across)).normalize();
+    [tangent, tangent.cross(n)]
+}
+
+/// A direction in a plane as a part of a full turn: ½ + atan2(y, x) / 2π.
+fn turn(y: f64, x: f64) -> f64 {
+    0.5 + y.atan2(x) / std::f64::consts::TAU
 }
 
 #[cfg(test)]

@@ -1,13 +1,14 @@
 //! The plane p·n + D = 0, seen from both sides.
+use super::{Primitive, axes};
 use crate::scene;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     /// Of unit length.
-    pub normal: DVec3,
+    normal: DVec3,
     offset: f64,
-    pub material: usize,
+    material: usize,
 }
 
 impl Plane {
@@ -17,19 +18,42 @@ impl Plane {
         Self { normal: normal / length, offset: f64::from(plane.distance) / length, material: plane.material }
     }
 
+    fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) + self.offset
+    }
+}
+
+impl Primitive for Plane {
     /// t = −(n·o + D) / (n·d). A parallel ray hits nothing, not even from within the plane.
-    pub fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         let slope = self.normal.dot(direction);
         let t = -self.height(origin) / slope;
         (slope != 0.0 && t > 0.0).then_some(t)
     }
 
-    /// The point of the plane nearest to `point`.
-    pub fn project(&self, point: DVec3) -> DVec3 {
+    fn project(&self, point: DVec3) -> DVec3 {
         point - self.normal * self.height(point)
     }
 
-    fn height(&self, point: DVec3) -> f64 {
-        self.normal.dot(point) + self.offset
+    fn normal(&self, _point: DVec3) -> DVec3 {
+        self.normal
+    }
+
+    fn extent(&self) -> f64 {
+        0.0
+    }
+
+    fn material(&self) -> usize {
+        self.material
+    }
+
+    fn uv(&self, point: DVec3) -> DVec2 {
+        let DVec3 { x, y, .. } = self.checker(point);
+        DVec2::new(x, -y)
+    }
+
+    fn checker(&self, point: DVec3) -> DVec3 {
+        let [t, b] = axes(self.normal);
+        DVec3::new(point.dot(t), point.dot(b), 0.0)
     }
 }

@@ -1,5 +1,5 @@
 //! Whitted shading: the light that arrives along a ray.
-use super::{Primitive, Tracer, turned};
+use super::{Tracer, texture, turned};
 use crate::scene::{Light, Material, Pigment};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -55,7 +55,7 @@ impl Tracer {
     }
 
     fn radiance_along(&self, origin: DVec3, direction: DVec3, way: Way<'_>) -> DVec3 {
-        let Some(point) = self.visible(origin, direction, way) else { return self.sky };
+        let Some(point) = self.visible(origin, direction, way) else { return texture::sky(&self.sky, direction) };
         let mirrored = reflect(direction, point.normal);
         let reflectance = f64::from(point.material.reflectance);
         let ambient = self.settings.ambient.as_dvec3() * point.base;
@@ -76,25 +76,18 @@ impl Tracer {
         if way.depth > 1 {
             rough += slid(way.rounding.shift * scale, direction, hit.normal);
         }
-        let primitive = self.primitive(hit.primitive)?;
-        let (position, material) = match primitive {
-            Primitive::Plane(plane) => (plane.project(rough), plane.material),
-            Primitive::Sphere(sphere) => (sphere.project(rough), sphere.material),
-            Primitive::Triangle(triangle) => (triangle.project(rough), triangle.material),
-        };
-        let material = &self.materials[material];
-        let normal = self.normal(hit.primitive, position);
-        let base = match (material.pigment, primitive) {
-            (Pigment::Color(color), _) => color.as_dvec3(),
-            (Pigment::Checker { colors, size }, Primitive::Sphere(sphere)) => {
-                checker(colors, ((position - sphere.center) / f64::from(size)).to_array())
-            }
-            (Pigment::Checker { colors, size }, _) => {
-                let [tangent, bitangent] = axes(normal);
-                checker(colors, [tangent, bitangent].map(|axis| position.dot(axis) / f64::from(size)))
+        let primitive = &self.primitives[hit.primitive as usize];
+        let position = primitive.project(rough);
+        let material = &self.materials[primitive.material()];
+        let normal = turned(primitive.normal(position), direction);
+        let base = match material.pigment {
+            Pigment::Color(color) => color.as_dvec3(),
+            Pigment::Checker { colors, size } => checker(colors, primitive.checker(position) / f64::from(size)),
+            Pigment::Texture { texture, size } => {
+                texture::sample(&self.textures[texture], primitive.uv(position) / f64::from(size))
             }
         };
-        Some(Point { position, normal: turned(normal, direction), scale, material, base })
+        Some(Point { position, normal, scale, material, base })
     }
 
     /// What one light adds: E (base n·l + specular max(0, r·l)^shininess), unless something is in the way.
@@ -141,16 +134,8 @@ fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
-/// The axes of a checkerboard in a plane or triangle with the unit normal `n`, as described or wound.
-fn axes(n: DVec3) -> [DVec3; 2] {
-    let [x, y, z] = n.abs().to_array();
-    let across = if (y >= x && y >= z) || x < z { DVec3::X } else { DVec3::Z };
-    let tangent = (across - n * n.dot(across)).normalize();
-    [tangent, tangent.cross(n)]
-}
-
 /// The first colour in cells whose indices sum to an even number.
-fn checker<const N: usize>(colors: [glam::Vec3; 2], cell: [f64; N]) -> DVec3 {
-    let sum: f64 = cell.iter().map(|c| c.floor()).sum();
+fn checker(colors: [glam::Vec3; 2], cell: DVec3) -> DVec3 {
+    let sum = cell.floor().element_sum();
     colors[usize::from(sum.rem_euclid(2.0) != 0.0)].as_dvec3()
 }

@@ -1,25 +1,35 @@
-//! The sphere |p − c| = r, seen from outside and inside.
-use crate::scene;
-use glam::DVec3;
+//! The sphere |p − c| = r.
+use super::{Primitive, turn};
+use crate::scene::{self, Sides};
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
 
 #[derive(Clone, Debug)]
 pub(super) struct Sphere {
-    pub center: DVec3,
-    pub radius: f64,
-    pub material: usize,
+    center: DVec3,
+    radius: f64,
+    sides: Sides,
+    material: usize,
 }
 
 impl Sphere {
     pub fn new(sphere: &scene::Sphere) -> Self {
-        Self { center: sphere.center.as_dvec3(), radius: f64::from(sphere.radius), material: sphere.material }
+        Self {
+            center: sphere.center.as_dvec3(),
+            radius: f64::from(sphere.radius),
+            sides: sphere.sides,
+            material: sphere.material,
+        }
     }
+}
 
+impl Primitive for Sphere {
     /// The first root above 0 of t² + 2bt + c = 0, with b = (o − c)·d and c = |o − c|² − r².
     ///
     /// The quarter discriminant b² − c is taken as r² less the squared distance of the ray's line from the
     /// centre, and the roots as q and c/q: the plain formulae cancel for a small sphere far away even in `f64`.
     /// A tangent counts as a hit.
-    pub fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         let from_center = origin - self.center;
         let b = from_center.dot(direction);
         let discriminant = self.radius * self.radius - (from_center - b * direction).length_squared();
@@ -36,16 +46,36 @@ impl Sphere {
             let q = -b + root;
             (c / q, q)
         };
-        [first, second].into_iter().find(|&t| t > 0.0)
+        let there = match self.sides {
+            Sides::Both => &[first, second][..],
+            Sides::Front => &[first],
+            Sides::Back => &[second],
+        };
+        there.iter().copied().find(|&t| t > 0.0)
     }
 
-    /// Unit, outward.
-    pub fn normal(&self, point: DVec3) -> DVec3 {
+    fn normal(&self, point: DVec3) -> DVec3 {
         (point - self.center).normalize()
     }
 
-    /// The point of the sphere nearest to `point`.
-    pub fn project(&self, point: DVec3) -> DVec3 {
+    fn project(&self, point: DVec3) -> DVec3 {
         self.center + self.radius * self.normal(point)
+    }
+
+    fn extent(&self) -> f64 {
+        self.radius
+    }
+
+    fn material(&self) -> usize {
+        self.material
+    }
+
+    fn uv(&self, point: DVec3) -> DVec2 {
+        let n = self.normal(point);
+        DVec2::new(turn(n.x, n.z), 0.5 + n.y.clamp(-1.0, 1.0).asin() / PI)
+    }
+
+    fn checker(&self, point: DVec3) -> DVec3 {
+        point - self.center
     }
 }

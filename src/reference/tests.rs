@@ -1,6 +1,6 @@
 //! The reference against cases worked out by hand.
 use super::*;
-use crate::scene::{CameraDescription, Mesh, Pigment, Plane, Sphere};
+use crate::scene::{CameraDescription, Mesh, Pigment, Plane, Sides, Sky, Sphere};
 use glam::{Vec3, dvec3, vec3};
 use std::f64::consts::PI;
 
@@ -8,11 +8,11 @@ mod shading;
 
 fn material() -> Material {
     let pigment = Pigment::Color(vec3(0.5, 0.25, 1.0));
-    Material { name: "m".into(), pigment, reflectance: 0.0, specular: 0.0, shininess: 1.0 }
+    Material { name: "m".into(), pigment, shininess: 1.0, ..Material::default() }
 }
 
 fn sphere(center: Vec3, radius: f32) -> Sphere {
-    Sphere { center, radius, material: 0 }
+    Sphere { center, radius, sides: Sides::Both, material: 0 }
 }
 
 fn floor(height: f32) -> Plane {
@@ -28,7 +28,7 @@ fn planes(planes: &[Plane]) -> Description {
 }
 
 fn triangle(corners: [Vec3; 3]) -> Description {
-    let mesh = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2]], material: 0 };
+    let mesh = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2]], ..Mesh::default() };
     Description { meshes: vec![mesh], materials: vec![material()], ..Default::default() }
 }
 
@@ -107,7 +107,7 @@ fn triangle_from_both_sides_edges_and_outside() {
 fn no_ray_slips_between_triangles_that_share_an_edge() {
     let positions = vec![vec3(-1.3, -0.7, 0.1), vec3(1.1, -0.9, 0.3), vec3(0.9, 1.3, -0.2), vec3(-1.2, 0.8, 0.4)];
     let (a, c) = (positions[0].as_dvec3(), positions[2].as_dvec3());
-    let mesh = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], material: 0 };
+    let mesh = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
     let scene = Description { meshes: vec![mesh], materials: vec![material()], ..Default::default() };
     let eye = dvec3(0.3, 0.2, 3.0);
     for i in 1..1000 {
@@ -179,7 +179,7 @@ fn camera_inside_a_sphere_sees_it_everywhere() {
 fn a_picture_is_the_mean_of_its_samples() {
     let mut scene = planes(&[floor(0.0)]);
     scene.settings.ambient = Vec3::ONE;
-    scene.sky.color = vec3(0.25, 0.5, 0.75);
+    scene.sky = Sky::Color(vec3(0.25, 0.5, 0.75));
     let fine = render(&scene, 4, 4, 1);
     let coarse = render(&scene, 2, 2, 2);
     for (i, mean) in coarse.iter().enumerate() {

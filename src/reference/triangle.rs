@@ -1,44 +1,101 @@
-//! Triangles, seen from both sides.
-use glam::DVec3;
+//! Triangles.
+use super::{Primitive, axes};
+use crate::scene::{Mesh, Sides};
+use glam::{DVec2, DVec3};
 
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
     corners: [DVec3; 3],
     /// Unit, (v1 − v0) × (v2 − v0); zero when the triangle has no area.
-    pub normal: DVec3,
-    pub material: usize,
+    normal: DVec3,
+    /// At the corners.
+    normals: Option<[DVec3; 3]>,
+    uvs: Option<[DVec2; 3]>,
+    sides: Sides,
+    material: usize,
 }
 
 impl Triangle {
-    pub fn new(corners: [DVec3; 3], material: usize) -> Self {
+    /// Triangle `i` of a mesh.
+    pub fn new(mesh: &Mesh, i: usize) -> Self {
+        let vertices = mesh.triangles[i].map(|v| v as usize);
+        let corners = vertices.map(|v| mesh.positions[v].as_dvec3());
         let [a, b, c] = corners;
-        Self { corners, normal: (b - a).cross(c - a).normalize_or_zero(), material }
+        Self {
+            corners,
+            normal: (b - a).cross(c - a).normalize_or_zero(),
+            normals: (!mesh.normals.is_empty()).then(|| vertices.map(|v| mesh.normals[v].as_dvec3())),
+            uvs: (!mesh.uvs.is_empty()).then(|| vertices.map(|v| mesh.uvs[v].as_dvec2())),
+            sides: mesh.sides,
+            material: mesh.materials.get(i).map_or(mesh.material, |&m| m as usize),
+        }
     }
 
+    /// The weights of the corners at a point of the plane: the areas of the triangles opposite to them.
+    fn weights(&self, point: DVec3) -> [f64; 3] {
+        let [a, b, c] = self.corners.map(|corner| corner - point);
+        let areas = [b.cross(c), c.cross(a), a.cross(b)].map(|n| n.dot(self.normal));
+        areas.map(|area| area / areas.iter().sum::<f64>())
+    }
+}
+
+impl Primitive for Triangle {
     /// Where the ray meets the triangle's plane, if it passes all edges on the same side.
     ///
     /// The side is the sign of the volume that the direction spans with the edge's two corners, seen from the
     /// origin. It is exactly opposite for two triangles that share the edge, so no ray slips between them. An
     /// edge belongs to the triangle; a triangle without area, or seen edge-on, is never hit.
-    pub fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         let [a, b, c] = self.corners.map(|corner| corner - origin);
         let sides = [a.cross(b), b.cross(c), c.cross(a)].map(|normal| normal.dot(direction));
         let inside = sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0);
         let slope = self.normal.dot(direction);
-        if !inside || slope == 0.0 {
+        let there = match self.sides {
+            Sides::Both => slope != 0.0,
+            Sides::Front => slope < 0.0,
+            Sides::Back => slope > 0.0,
+        };
+        if !inside || !there {
             return None;
         }
         let t = self.normal.dot(a) / slope;
         (t > 0.0).then_some(t)
     }
 
-    /// The point of the triangle's plane nearest to `point`.
-    pub fn project(&self, point: DVec3) -> DVec3 {
+    fn project(&self, point: DVec3) -> DVec3 {
         point - self.normal * self.normal.dot(point - self.corners[0])
     }
 
-    pub fn longest_edge(&self) -> f64 {
+    fn normal(&self, _point: DVec3) -> DVec3 {
+        self.normal
+    }
+
+    fn shading_normal(&self, point: DVec3) -> DVec3 {
+        let Some([a, b, c]) = self.normals else { return self.normal };
+        let [u, v, w] = self.weights(point);
+        let n = u * a + v * b + w * c;
+        // Normals that cancel out leave the triangle's own.
+        if n.length_squared() > 1e-12 { n.normalize() } else { self.normal }
+    }
+
+    /// The longest edge.
+    fn extent(&self) -> f64 {
         let [a, b, c] = self.corners;
         a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+
+    fn material(&self) -> usize {
+        self.material
+    }
+
+    fn uv(&self, point: DVec3) -> DVec2 {
+        let [a, b, c] = self.uvs.unwrap_or([DVec2::ZERO, DVec2::X, DVec2::Y]);
+        let [u, v, w] = self.weights(point);
+        u * a + v * b + w * c
+    }
+
+    fn checker(&self, point: DVec3) -> DVec3 {
+        let [t, b] = axes(self.normal);
+        DVec3::new(point.dot(t), point.dot(b), 0.0)
     }
 }

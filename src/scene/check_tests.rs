@@ -1,14 +1,8 @@
 use super::*;
-use crate::scene::{CameraDescription, Light, Plane, Settings, Sky, Sphere};
+use crate::scene::{CameraDescription, Light, Plane, Settings, Sides, Sky, Sphere};
 
 fn sound() -> Description {
-    let material = Material {
-        name: "grey".into(),
-        pigment: Pigment::Color(Vec3::ONE),
-        reflectance: 0.0,
-        specular: 0.0,
-        shininess: 50.0,
-    };
+    let material = Material { name: "grey".into(), pigment: Pigment::Color(Vec3::ONE), ..Material::default() };
     Description {
         name: "test".into(),
         camera: CameraDescription::default(),
@@ -17,8 +11,13 @@ fn sound() -> Description {
         lights: vec![Light { position: Vec3::ONE, power: Vec3::ONE }],
         materials: vec![material.clone(), Material { name: "two words".into(), ..material }],
         planes: vec![Plane { normal: Vec3::Y, distance: 0.0, material: 0 }],
-        spheres: vec![Sphere { center: Vec3::ZERO, radius: 1.0, material: 1 }],
-        meshes: vec![Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], material: 0 }],
+        spheres: vec![Sphere { center: Vec3::ZERO, radius: 1.0, sides: Sides::Both, material: 1 }],
+        meshes: vec![Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        }],
+        ..Description::default()
     }
 }
 
@@ -53,7 +52,10 @@ fn settings_sky_and_lights_are_checked() {
         verdict(|d| d.settings.ambient.z = -1.0),
         "settings.ambient: must be finite and 0 or more, got [0, 0, -1]"
     );
-    assert_eq!(verdict(|d| d.sky.color.x = f32::INFINITY), "sky.color: must be finite and 0 or more, got [inf, 0, 0]");
+    assert_eq!(
+        verdict(|d| d.sky = Sky::Color(Vec3::X * f32::INFINITY)),
+        "sky.color: must be finite and 0 or more, got [inf, NaN, NaN]"
+    );
     assert_eq!(verdict(|d| d.lights[0].power.y = -2.0), "light[0].power: must be finite and 0 or more, got [1, -2, 1]");
     assert_eq!(
         verdict(|d| d.lights[0].position.y = -2e18),

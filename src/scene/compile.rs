@@ -1,21 +1,39 @@
 //! From a [`Description`] to the arrays that are traced.
 
-use super::{Description, Invalid, Light, Material, Plan, Settings, Sky, check};
-use crate::geometry::{Planes, Spheres, Triangles};
+use std::sync::Arc;
+
+use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
+use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
 
 /// A compiled scene: SoA arrays, ready to trace.
 ///
-/// Primitive ids run through planes, then spheres, then triangles.
+/// Primitive ids run through the kinds in the order of the fields, from planes to fractals.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Planes, ids from 0.
     pub planes: Planes,
-    /// Spheres, ids from [`Scene::first_sphere`].
+    /// Spheres.
     pub spheres: Spheres,
-    /// Triangles, ids from [`Scene::first_triangle`].
+    /// Triangles.
     pub triangles: Triangles,
+    /// Quads.
+    pub quads: Quads,
+    /// Boxes.
+    pub cuboids: Cuboids,
+    /// Cylinders.
+    pub cylinders: Cylinders,
+    /// Cones.
+    pub cones: Cones,
+    /// Tori.
+    pub tori: Tori,
+    /// Fractals.
+    pub fractals: Fractals,
+    /// The first id of every kind.
+    pub first: First,
     /// Materials, by index.
     pub materials: Vec<Material>,
+    /// Texture images, by index.
+    pub textures: Vec<Arc<Texture>>,
     /// Point lights.
     pub lights: Vec<Light>,
     /// What a ray that hits nothing sees.
@@ -26,17 +44,63 @@ pub struct Scene {
     pub plan: Plan,
 }
 
-impl Scene {
-    /// The first sphere's id.
-    pub fn first_sphere(&self) -> u32 {
-        self.planes.len() as u32
-    }
-
-    /// The first triangle's id.
-    pub fn first_triangle(&self) -> u32 {
-        (self.planes.len() + self.spheres.len()) as u32
-    }
+/// The first id of every kind of primitive; that of planes is 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct First {
+    /// Of the spheres.
+    pub spheres: u32,
+    /// Of the triangles.
+    pub triangles: u32,
+    /// Of the quads.
+    pub quads: u32,
+    /// Of the boxes.
+    pub cuboids: u32,
+    /// Of the cylinders.
+    pub cylinders: u32,
+    /// Of the cones.
+    pub cones: u32,
+    /// Of the tori.
+    pub tori: u32,
+    /// Of the fractals.
+    pub fractals: u32,
 }
+
+/// Evaluates an expression for the primitive with an id, whatever its kind:
+/// `with_primitive!(scene, id, |kind, i| kind.material(i))`, where `kind` is [`Primitives`] and `i` counts within it.
+macro_rules! with_primitive {
+    ($scene:expr, $id:expr, |$kind:ident, $i:ident| $body:expr) => {{
+        let (scene, id): (&$crate::scene::Scene, u32) = ($scene, $id);
+        let first = &scene.first;
+        macro_rules! on {
+            ($field:ident, $from:expr) => {{
+                let ($kind, $i) = (&scene.$field, (id - $from) as usize);
+                $body
+            }};
+        }
+        if id < first.quads {
+            if id >= first.triangles {
+                on!(triangles, first.triangles)
+            } else if id >= first.spheres {
+                on!(spheres, first.spheres)
+            } else {
+                on!(planes, 0)
+            }
+        } else if id < first.cuboids {
+            on!(quads, first.quads)
+        } else if id < first.cylinders {
+            on!(cuboids, first.cuboids)
+        } else if id < first.cones {
+            on!(cylinders, first.cylinders)
+        } else if id < first.tori {
+            on!(cones, first.cones)
+        } else if id < first.fractals {
+            on!(tori, first.tori)
+        } else {
+            on!(fractals, first.fractals)
+        }
+    }};
+}
+pub(crate) use with_primitive;
 
 /// Compiles a description into SoA arrays.
 ///
@@ -50,22 +114,77 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     }
     let mut spheres = Spheres::default();
     for s in &description.spheres {
-        spheres.push(s.center, s.radius, s.material as u32);
+        spheres.push(s.center, s.radius, s.sides, s.material as u32);
     }
     let mut triangles = Triangles::default();
-    for mesh in &description.meshes {
-        for corners in &mesh.triangles {
-            triangles.push(corners.map(|i| mesh.positions[i as usize]), mesh.material as u32);
-        }
+    description.meshes.iter().for_each(|mesh| add_mesh(&mut triangles, mesh));
+    let mut quads = Quads::default();
+    for q in &description.quads {
+        quads.push(q.corner, q.u, q.v, q.material as u32);
     }
+    let mut cuboids = Cuboids::default();
+    for c in &description.cuboids {
+        cuboids.push(c.min, c.max, c.rotation, c.material as u32);
+    }
+    let mut cylinders = Cylinders::default();
+    for c in &description.cylinders {
+        cylinders.push(c.base, c.apex, c.radius, c.caps, c.sides, c.material as u32);
+    }
+    let mut cones = Cones::default();
+    for c in &description.cones {
+        let radii = [c.base_radius, c.apex_radius];
+        cones.push([c.base, c.apex], radii, c.caps, c.sides, c.material as u32);
+    }
+    let mut tori = Tori::default();
+    for t in &description.tori {
+        tori.push(t.center, t.axis, t.major_radius, t.minor_radius, t.material as u32);
+    }
+    let mut fractals = Fractals::default();
+    for f in &description.fractals {
+        fractals.push(f.center, f.radius, f.iterations, f.material as u32);
+    }
+    let mut first = First { spheres: planes.len() as u32, ..First::default() };
+    first.triangles = first.spheres + spheres.len() as u32;
+    first.quads = first.triangles + triangles.len() as u32;
+    first.cuboids = first.quads + quads.len() as u32;
+    first.cylinders = first.cuboids + cuboids.len() as u32;
+    first.cones = first.cylinders + cylinders.len() as u32;
+    first.tori = first.cones + cones.len() as u32;
+    first.fractals = first.tori + tori.len() as u32;
     Ok(Scene {
         planes,
         spheres,
         triangles,
+        quads,
+        cuboids,
+        cylinders,
+        cones,
+        tori,
+        fractals,
+        first,
         materials: description.materials.clone(),
+        textures: description.textures.clone(),
         lights: description.lights.clone(),
-        sky: description.sky,
+        sky: description.sky.clone(),
         settings: description.settings,
         plan: Plan::of(description),
     })
+}
+
+/// Adds a mesh's triangles, and to those what its vertices have.
+fn add_mesh(triangles: &mut Triangles, mesh: &Mesh) {
+    let [normals, uvs] = [triangles.normals.values.len(), triangles.uvs.values.len()].map(|n| n as u32);
+    triangles.normals.values.extend(&mesh.normals);
+    triangles.uvs.values.extend(&mesh.uvs);
+    for (k, corners) in mesh.triangles.iter().enumerate() {
+        let i = triangles.len();
+        let material = mesh.materials.get(k).copied().unwrap_or(mesh.material as u32);
+        triangles.push(corners.map(|c| mesh.positions[c as usize]), mesh.sides, material);
+        if !mesh.normals.is_empty() {
+            triangles.normals.set(i, corners.map(|c| c + normals));
+        }
+        if !mesh.uvs.is_empty() {
+            triangles.uvs.set(i, corners.map(|c| c + uvs));
+        }
+    }
 }

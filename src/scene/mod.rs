@@ -8,7 +8,8 @@ mod read;
 
 pub use builtin::*;
 pub use check::check;
-pub use compile::{Scene, compile};
+pub(crate) use compile::with_primitive;
+pub use compile::{First, Scene, compile};
 pub use description::*;
 pub use plan::{Plan, ShadowStart};
 pub use read::*;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use glam::Vec3;
 
-use super::Description;
+use super::{Description, Sides};
 
 /// Where a light's shadow rays start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,8 +23,12 @@ const FARTHEST: f32 = 1024.0;
 /// What the tracer will do for a scene, each with its reason; what is absent costs nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// The numbers of planes, spheres and triangles.
-    pub primitives: [usize; 3],
+    /// The numbers of primitives by kind, in the order of their ids.
+    pub primitives: [usize; 9],
+    /// Whether there is more than planes, spheres and triangles that are seen from both sides.
+    pub rare: bool,
+    /// Whether any triangle has vertex normals.
+    pub smooth: bool,
     /// How many segments a path may have: 1 where nothing reflects, else the scene's `max_depth`.
     pub waves: u32,
     /// Whether any material has a highlight, so that the Phong term is evaluated.
@@ -43,9 +47,24 @@ impl Plan {
             description.materials.iter().zip(&used).filter(|(m, u)| **u && has(m)).count()
         };
         let triangles = description.meshes.iter().map(|m| m.triangles.len()).sum();
+        let primitives = [
+            description.planes.len(),
+            description.spheres.len(),
+            triangles,
+            description.quads.len(),
+            description.cuboids.len(),
+            description.cylinders.len(),
+            description.cones.len(),
+            description.tori.len(),
+            description.fractals.len(),
+        ];
+        let one_sided = description.spheres.iter().any(|s| s.sides != Sides::Both)
+            || description.meshes.iter().any(|m| m.sides != Sides::Both);
         let mirrors = count(&|m| m.reflectance > 0.0);
         Self {
-            primitives: [description.planes.len(), description.spheres.len(), triangles],
+            primitives,
+            rare: one_sided || primitives[3..].iter().any(|n| *n > 0),
+            smooth: description.meshes.iter().any(|m| !m.normals.is_empty()),
             waves: if mirrors == 0 { 1 } else { description.settings.max_depth },
             highlights: count(&|m| m.specular > 0.0) > 0,
             shadows: description.lights.iter().map(|l| shadow_start(description, l.position)).collect(),
@@ -62,43 +81,82 @@ fn shadow_start(description: &Description, position: Vec3) -> ShadowStart {
     let camera = &description.camera;
     let view = (camera.look_at.as_dvec3() - camera.eye.as_dvec3()).length();
     let spheres = description.spheres.iter().all(|s| near(s.center, f64::from(s.radius)));
+    let flat = |corner: Vec3, u: Vec3, v: Vec3| {
+        let [e1, e2] = [u, v].map(|e| e.as_dvec3());
+        let least_height = e1.cross(e2).length() / e1.length().max(e2.length()).max((e2 - e1).length());
+        // A triangle without area casts no shadow.
+        let nothing = least_height.is_nan() || least_height == 0.0;
+        nothing || [corner, corner + u, corner + v].iter().all(|&p| near(p, least_height))
+    };
     let meshes = description.meshes.iter().all(|mesh| {
         mesh.triangles.iter().all(|corners| {
             let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
-            let [u, v] = [b - a, c - a].map(|e| e.as_dvec3());
-            let least_height = u.cross(v).length() / u.length().max(v.length()).max((v - u).length());
-            // A triangle without area casts no shadow.
-            least_height.is_nan() || least_height == 0.0 || [a, b, c].iter().all(|&p| near(p, least_height))
+            flat(a, b - a, c - a)
         })
     });
-    if spheres && meshes && near(camera.eye, view) { ShadowStart::Light } else { ShadowStart::Point }
+    let quads = description.quads.iter().all(|q| flat(q.corner, q.u, q.v) && flat(q.corner + q.u + q.v, -q.u, -q.v));
+    // A body counts by its least size, of a fractal its smallest cubes.
+    let cuboids = description.cuboids.iter().all(|c| {
+        let size = f64::from((c.max - c.min).min_element());
+        near(c.min, size) && near(c.max, size)
+    });
+    let cylinders = description.cylinders.iter().all(|c| {
+        let size = f64::from(c.radius).min(c.base.as_dvec3().distance(c.apex.as_dvec3()));
+        near(c.base, size) && near(c.apex, size)
+    });
+    let cones = description.cones.iter().all(|c| {
+        let length = c.base.as_dvec3().distance(c.apex.as_dvec3());
+        let size = f64::from(c.base_radius.max(c.apex_radius)).min(length);
+        near(c.base, size) && near(c.apex, size)
+    });
+    let tori = description.tori.iter().all(|t| near(t.center, f64::from(t.minor_radius)));
+    let fractals =
+        description.fractals.iter().all(|f| near(f.center, f64::from(f.radius) / 3f64.powi(f.iterations as i32)));
+    let bodies = cuboids && cylinders && cones && tori && fractals;
+    let all = spheres && meshes && quads && bodies && near(camera.eye, view);
+    if all { ShadowStart::Light } else { ShadowStart::Point }
 }
 
 /// Which materials some primitive wears.
 fn used_materials(description: &Description) -> Vec<bool> {
     let mut used = vec![false; description.materials.len()];
-    let planes = description.planes.iter().map(|p| p.material);
-    let spheres = description.spheres.iter().map(|s| s.material);
-    let meshes = description.meshes.iter().map(|m| m.material);
-    for m in planes.chain(spheres).chain(meshes) {
+    let mut wear = |m: usize| {
         if let Some(used) = used.get_mut(m) {
             *used = true;
         }
+    };
+    description.planes.iter().for_each(|p| wear(p.material));
+    description.spheres.iter().for_each(|p| wear(p.material));
+    for mesh in &description.meshes {
+        match mesh.materials.is_empty() {
+            true => wear(mesh.material),
+            false => mesh.materials.iter().for_each(|&m| wear(m as usize)),
+        }
     }
+    description.quads.iter().for_each(|p| wear(p.material));
+    description.cuboids.iter().for_each(|p| wear(p.material));
+    description.cylinders.iter().for_each(|p| wear(p.material));
+    description.cones.iter().for_each(|p| wear(p.material));
+    description.tori.iter().for_each(|p| wear(p.material));
+    description.fractals.iter().for_each(|p| wear(p.material));
     used
 }
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let [planes, spheres, triangles] = self.primitives;
-        if planes > 0 {
-            writeln!(f, "planes      {planes}: unbounded; left out where no ray of a batch turns to it")?;
-        }
-        if spheres > 0 {
-            writeln!(f, "spheres     {spheres}: method `stable`, right from inside, on and far from a sphere")?;
-        }
-        if triangles > 0 {
-            writeln!(f, "triangles   {triangles}: method `moller_trumbore`, seen from both sides")?;
+        let methods = [
+            ("planes", "unbounded; left out where no ray of a batch turns to it"),
+            ("spheres", "method `stable`, right from inside, on and far from a sphere"),
+            ("triangles", "method `watertight`: no ray slips between triangles that share an edge or corner"),
+            ("quads", "method `moller_trumbore`, as nothing shares their edges"),
+            ("boxes", "METHOD"),
+            ("cylinders", "METHOD"),
+            ("cones", "METHOD"),
+            ("tori", "METHOD"),
+            ("fractals", "METHOD"),
+        ];
+        for ((kind, method), count) in methods.into_iter().zip(self.primitives).filter(|(_, count)| *count > 0) {
+            writeln!(f, "{kind:<11} {count}: {method}")?;
         }
         writeln!(
             f,

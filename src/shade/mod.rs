@@ -6,8 +6,10 @@
 
 mod light;
 mod path;
+mod sky;
 mod spawn;
 mod surface;
+mod texture;
 mod wave;
 mod whitted;
 

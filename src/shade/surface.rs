@@ -1,10 +1,11 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
 use super::spawn;
+use super::texture;
 use super::wave::Wave;
-use crate::geometry::{Surface, frame};
+use crate::geometry::{Primitives, Surface};
 use crate::math::{BATCH, LaneMask, Lanes, Vec3};
-use crate::scene::{Pigment, Scene};
+use crate::scene::{Pigment, Scene, with_primitive};
 use crate::trace::Nearest;
 
 /// The surfaces that a wave's rays hit, column by column.
@@ -127,6 +128,11 @@ fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
             let odd = odd_cell(scene, id, &surface, 1.0 / size);
             Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
         }
+        Pigment::Texture { texture, size } => {
+            let [u, v] = with_primitive!(scene, id, |kind, i| kind.uv(i, &surface));
+            let per_size = L::splat(1.0 / size);
+            texture::sample(&scene.textures[texture], u * per_size, v * per_size)
+        }
     };
     Gathered {
         point: surface.point,
@@ -143,42 +149,15 @@ fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
 /// Primitive `id`'s surface near the points `p`, and its material.
 #[inline(always)]
 pub fn surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32) {
-    let (first_sphere, first_triangle) = (scene.first_sphere(), scene.first_triangle());
-    if id >= first_triangle {
-        let i = (id - first_triangle) as usize;
-        (scene.triangles.surface(i, p), scene.triangles.material[i])
-    } else if id >= first_sphere {
-        let i = (id - first_sphere) as usize;
-        (scene.spheres.surface(i, p), scene.spheres.material[i])
-    } else {
-        (scene.planes.surface(id as usize, p), scene.planes.material[id as usize])
-    }
+    with_primitive!(scene, id, |kind, i| (kind.surface(i, p), kind.material(i)))
 }
 
 /// Where the checkerboard shows its second colour; see [`Pigment::Checker`].
 #[inline(always)]
 fn odd_cell<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, per_size: f32) -> L::Mask {
-    let per_size = L::splat(per_size);
-    let cells = if (scene.first_sphere()..scene.first_triangle()).contains(&id) {
-        let center = Vec3::splat(scene.spheres.center((id - scene.first_sphere()) as usize));
-        let local = (surface.point - center) * per_size;
-        local.x.floor() + local.y.floor() + local.z.floor()
-    } else {
-        let [t, b] = axes(scene, id).map(Vec3::splat);
-        (surface.point.dot(t) * per_size).floor() + (surface.point.dot(b) * per_size).floor()
-    };
-    let half = cells * L::splat(0.5);
+    let q = with_primitive!(scene, id, |kind, i| kind.checker(i, surface)) * L::splat(per_size);
+    let half = (q.x.floor() + q.y.floor() + q.z.floor()) * L::splat(0.5);
     !half.floor().eq(half)
-}
-
-/// The axes of a plane's or triangle's pattern.
-#[inline(always)]
-fn axes(scene: &Scene, id: u32) -> [glam::Vec3; 2] {
-    if id < scene.first_sphere() {
-        scene.planes.unit[id as usize].axes
-    } else {
-        frame(scene.triangles.unit[(id - scene.first_triangle()) as usize])
-    }
 }
 
 /// The unit normal where one ray hit a primitive, turned against the ray; zero for a ray that hit nothing.

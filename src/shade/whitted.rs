@@ -1,6 +1,7 @@
 //! Whitted's algorithm over the waves of a tile: trace, light, mirror, and again with the mirrored rays, compacted.
 
 use super::light::Lighting;
+use super::sky;
 use super::spawn;
 use super::surface::Surfaces;
 use super::wave::{Observer, Wave};
@@ -110,7 +111,6 @@ fn arrive<L: Lanes>(
     in_order: bool,
 ) -> bool {
     let Some(bounds) = Bounds::of::<L>(&wave.rays) else { return false };
-    let sky = Vec3::<L>::splat(scene.sky.color);
     let mut any = false;
     surfaces.start(wave.rays.len);
     nearest_hits::<L>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
@@ -120,6 +120,7 @@ fn arrive<L: Lanes>(
         }
         let missed = active & !hit.found;
         if missed.any() {
+            let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
             deposit(wave, at, sky * L::load(&wave.weight[at..]), missed, radiance, in_order);
         }
     });

@@ -1,6 +1,6 @@
 //! What holds for all rays of a batch: boxes around their origins and directions, and a ball and a cone around those.
 
-use crate::geometry::{Planes, Triangles};
+use crate::geometry::{Planes, Primitives, Triangles};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 
 /// Bounds of the active rays of a batch.
@@ -24,7 +24,7 @@ impl Bounds {
     #[inline(always)]
     pub fn miss_plane(&self, planes: &Planes, i: usize) -> bool {
         let normal = Vec3::from(planes.normal(i));
-        let height = planes.seen(i, self.origin.middle).height;
+        let height = Planes::seen(&planes.record(i), self.origin.middle).height;
         self.turn_away(normal, height, planes.distance[i].abs())
     }
 
@@ -32,20 +32,27 @@ impl Bounds {
     /// origin, pass the same edge on the outside.
     #[inline(always)]
     pub fn miss_triangle(&self, triangles: &Triangles, i: usize) -> bool {
-        let seen = triangles.seen(i, self.origin.middle);
+        let seen = Triangles::seen(&triangles.record(i), self.origin.middle);
+        let [a, b, c] = seen.corners;
+        let size = a.max_abs().max(b.max_abs()).max(c.max_abs());
         if !self.shared {
-            let v0 = Vec3::from(triangles.corner_and_edges(i)[0]);
-            return self.turn_away(seen.n, seen.height, 2.0 * v0.max_abs() * seen.n.max_abs());
+            let reach = triangles.corners(i)[0].abs().max_element();
+            return self.turn_away(seen.n, seen.height, 2.0 * (reach + size) * seen.n.max_abs());
         }
-        // With the sign of −T·N, det, u det, v det and (1 − u − v) det must all be at least zero.
+        // The test's own rounding, in units of the products that it compares: below 3e-6 (see `watertight`).
+        const SLACK: f32 = 1e-5;
+        // Beyond the slack, all that a ray meets lies on the side that the height says, and the volumes that the ray
+        // spans with the edges all have its sign.
         let s = if seen.height > 0.0 { 1.0 } else { -1.0 };
-        let outside = |edge: Vec3<f32>| self.direction.greatest(edge * s) < 0.0;
-        outside(seen.n) || outside(seen.u) || outside(seen.v) || {
-            // This edge is a difference, which rounds more than the others.
-            let third = seen.n - seen.u - seen.v;
-            let slack = 1e-6 * (seen.n.max_abs() + seen.u.max_abs() + seen.v.max_abs());
-            self.direction.greatest(third * s) < -3.0 * slack
+        if seen.height.abs() <= SLACK * size * seen.n.max_abs() {
+            return false;
         }
+        let outside = |edge: Vec3<f32>, slack: f32| self.direction.greatest(edge * s) < -slack;
+        let slack = SLACK * size * size;
+        outside(seen.n, SLACK * seen.n.max_abs())
+            || outside(a.cross(b), slack)
+            || outside(b.cross(c), slack)
+            || outside(c.cross(a), slack)
     }
 
     /// Whether all origins lie on one side of a plane and no direction leads to the other, `height` being −(n·o + d)

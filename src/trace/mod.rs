@@ -7,7 +7,6 @@ mod bounds;
 mod candidates;
 mod packets;
 mod query;
-mod seen;
 mod single;
 
 pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
@@ -50,9 +49,11 @@ pub(crate) fn nearest_hits<L: Lanes>(
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
-    match scratch.gather::<L>(scene, bounds) {
-        View::Shared(candidates) => packets::nearest::<L>(candidates, rays, take),
-        View::Apart(candidates) => packets::nearest::<L>(candidates, rays, take),
+    match (scratch.gather::<L>(scene, bounds), scene.plan.rare) {
+        (View::Shared(candidates), false) => packets::nearest::<_, L, false>(candidates, rays, take),
+        (View::Apart(candidates), false) => packets::nearest::<_, L, false>(candidates, rays, take),
+        (View::Shared(candidates), true) => packets::nearest::<_, L, true>(candidates, rays, take),
+        (View::Apart(candidates), true) => packets::nearest::<_, L, true>(candidates, rays, take),
     }
 }
 
@@ -65,8 +66,10 @@ pub(crate) fn any_hits<L: Lanes>(
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
-    match scratch.gather::<L>(scene, bounds) {
-        View::Shared(candidates) => packets::any::<L>(candidates, rays, take),
-        View::Apart(candidates) => packets::any::<L>(candidates, rays, take),
+    match (scratch.gather::<L>(scene, bounds), scene.plan.rare) {
+        (View::Shared(candidates), false) => packets::any::<_, L, false>(candidates, rays, take),
+        (View::Apart(candidates), false) => packets::any::<_, L, false>(candidates, rays, take),
+        (View::Shared(candidates), true) => packets::any::<_, L, true>(candidates, rays, take),
+        (View::Apart(candidates), true) => packets::any::<_, L, true>(candidates, rays, take),
     }
 }

@@ -1,49 +1,63 @@
 //! Packets against candidates, one by one.
 
-use super::candidates::{Lists, Record};
+use super::candidates::{Form, List, Lists};
 use super::query::{Any, Nearest, Query};
-use super::seen::Seen;
-use crate::geometry::plane::{self, SeenPlane};
-use crate::geometry::sphere::{self, SeenSphere};
-use crate::geometry::triangle::{self, SeenTriangle};
+use crate::geometry::Primitives;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 
-/// Everything a packet may meet.
-pub trait Candidates<L: Lanes> {
-    /// Shows every candidate to the query, in rising order of ids, until it is done.
-    fn visit<Q: Query<L>>(&self, origin: Vec3<L>, direction: Vec3<L>, t_min: L, query: &mut Q);
+/// A packet's rays, as the primitives' tests take them.
+#[derive(Clone, Copy)]
+struct Packet<L> {
+    origin: Vec3<L>,
+    direction: Vec3<L>,
+    t_min: L,
 }
 
-impl<L, P, S, T> Candidates<L> for Lists<P, S, T>
-where
-    L: Lanes,
-    P: Seen<L, As = SeenPlane<L>>,
-    S: Seen<L, As = SeenSphere<L>>,
-    T: Seen<L, As = SeenTriangle<L>>,
-{
+impl<F: Form> Lists<F> {
+    /// Shows every candidate to the query, in rising order of ids, until it is done.
+    ///
+    /// `RARE` says that there is more than planes, spheres and triangles that are seen from both sides.
     #[inline(always)]
-    fn visit<Q: Query<L>>(&self, o: Vec3<L>, d: Vec3<L>, t_min: L, query: &mut Q) {
-        each(&self.planes, query, |seen, t_max| plane::nearest(&seen.from(o), d, t_min, t_max));
+    fn visit<L: Lanes, Q: Query<L>, const RARE: bool>(&self, packet: Packet<L>, query: &mut Q) {
+        each::<F, _, L, Q, RARE>(&self.planes, &packet, query);
         if query.done() {
             return;
         }
-        each(&self.spheres, query, |seen, t_max| sphere::stable(&seen.from(o), d, t_min, t_max));
+        each::<F, _, L, Q, RARE>(&self.spheres, &packet, query);
         if query.done() {
             return;
         }
-        each(&self.triangles, query, |seen, t_max| triangle::moller_trumbore(&seen.from(o), d, t_min, t_max));
+        each::<F, _, L, Q, RARE>(&self.triangles, &packet, query);
+        if RARE && !query.done() {
+            self.visit_rare(&packet, query);
+        }
+    }
+
+    #[inline(never)]
+    fn visit_rare<L: Lanes, Q: Query<L>>(&self, packet: &Packet<L>, query: &mut Q) {
+        each::<F, _, L, Q, true>(&self.quads, packet, query);
+        each::<F, _, L, Q, true>(&self.cuboids, packet, query);
+        each::<F, _, L, Q, true>(&self.cylinders, packet, query);
+        each::<F, _, L, Q, true>(&self.cones, packet, query);
+        each::<F, _, L, Q, true>(&self.tori, packet, query);
+        each::<F, _, L, Q, true>(&self.fractals, packet, query);
     }
 }
 
-/// Shows every primitive of one kind to the query.
+/// Shows every primitive of one kind to the query, until it is done.
 #[inline(always)]
-fn each<L: Lanes, T, Q: Query<L>>(
-    records: &[Record<T>],
+fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
+    records: &List<F, K>,
+    packet: &Packet<L>,
     query: &mut Q,
-    test: impl Fn(&T, L) -> crate::geometry::Nearest<L>,
 ) {
+    if records.is_empty() || query.done() {
+        return;
+    }
+    let aim = K::aim(packet.direction);
     for (record, id) in records {
-        if let Some((t, inside)) = test(record, query.t_max()) {
+        let seen = F::seen::<K, L>(record, packet.origin);
+        if let Some((t, inside)) = K::nearest::<L, SIDED>(&seen, &aim, packet.t_min, query.t_max()) {
             query.hit(t, inside, *id);
             if query.done() {
                 return;
@@ -54,8 +68,8 @@ fn each<L: Lanes, T, Q: Query<L>>(
 
 /// Gives `take` the nearest hits of every packet with an active ray: its first ray, the active lanes and the answer.
 #[inline(always)]
-pub fn nearest<L: Lanes>(
-    candidates: &impl Candidates<L>,
+pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
+    candidates: &Lists<F>,
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
@@ -67,8 +81,7 @@ pub fn nearest<L: Lanes>(
         }
         // Nothing lies before −∞, so inactive lanes take no hit.
         let mut query = Nearest::new(t_max.select(active, L::splat(f32::NEG_INFINITY)));
-        let (o, d) = (Vec3::load(&rays.origin, at), Vec3::load(&rays.direction, at));
-        candidates.visit(o, d, L::load(&rays.t_min[at..]), &mut query);
+        candidates.visit::<L, _, RARE>(packet(rays, at), &mut query);
         take(at, active, &query);
     }
 }
@@ -76,7 +89,11 @@ pub fn nearest<L: Lanes>(
 /// Gives `take` the blocked lanes of every packet with an active ray: its first ray, the active lanes, the blocked
 /// ones (inactive lanes may be either).
 #[inline(always)]
-pub fn any<L: Lanes>(candidates: &impl Candidates<L>, rays: &RayBatch, mut take: impl FnMut(usize, L::Mask, L::Mask)) {
+pub fn any<F: Form, L: Lanes, const RARE: bool>(
+    candidates: &Lists<F>,
+    rays: &RayBatch,
+    mut take: impl FnMut(usize, L::Mask, L::Mask),
+) {
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
@@ -84,8 +101,16 @@ pub fn any<L: Lanes>(candidates: &impl Candidates<L>, rays: &RayBatch, mut take:
             continue;
         }
         let mut query = Any { settled: !active, t_max };
-        let (o, d) = (Vec3::load(&rays.origin, at), Vec3::load(&rays.direction, at));
-        candidates.visit(o, d, L::load(&rays.t_min[at..]), &mut query);
+        candidates.visit::<L, _, RARE>(packet(rays, at), &mut query);
         take(at, active, query.settled);
+    }
+}
+
+#[inline(always)]
+fn packet<L: Lanes>(rays: &RayBatch, at: usize) -> Packet<L> {
+    Packet {
+        origin: Vec3::load(&rays.origin, at),
+        direction: Vec3::load(&rays.direction, at),
+        t_min: L::load(&rays.t_min[at..]),
     }
 }

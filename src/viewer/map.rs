@@ -101,10 +101,13 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{CameraDescription, Sphere};
+    use crate::scene::{CameraDescription, Sides, Sphere};
 
     fn scene(spheres: &[(Vec3, f32)]) -> Description {
-        let spheres = spheres.iter().map(|&(center, radius)| Sphere { center, radius, material: 0 }).collect();
+        let spheres = spheres
+            .iter()
+            .map(|&(center, radius)| Sphere { center, radius, sides: Sides::Both, material: 0 })
+            .collect();
         Description { spheres, ..Description::default() }
     }
 

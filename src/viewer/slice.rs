@@ -184,10 +184,13 @@ fn length_text(length: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{scene::Mesh, viewer::map::Map};
+    use crate::{
+        scene::{Mesh, Sides},
+        viewer::map::Map,
+    };
 
     fn sphere(y: f32, radius: f32) -> Sphere {
-        Sphere { center: Vec3::new(2.0, y, 3.0), radius, material: 0 }
+        Sphere { center: Vec3::new(2.0, y, 3.0), radius, sides: Sides::Both, material: 0 }
     }
 
     #[test]
@@ -226,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_mesh_with_a_bad_index_is_no_panic() {
-        let mesh = Mesh { positions: vec![Vec3::ZERO], triangles: vec![[0, 1, 2]], material: 0 };
+        let mesh = Mesh { positions: vec![Vec3::ZERO], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         let description = Description { meshes: vec![mesh], ..Description::default() };
         assert_eq!(cuts(&description, 0.0).count(), 0);
     }

@@ -3,7 +3,9 @@
 
 use glam::{Vec3, vec3};
 use raypacket::render::{Camera, Film, Kernel, render};
-use raypacket::scene::{Description, Light, Material, Mesh, Pigment, Plane, Scene, Sphere, builtins, compile, load};
+use raypacket::scene::{
+    Description, Light, Material, Mesh, Pigment, Plane, Scene, Sides, Sphere, builtins, compile, load,
+};
 
 /// ε: half the distance from 1 to the next `f32`.
 pub const ROUNDOFF: f64 = 1.0 / (1u64 << 24) as f64;
@@ -64,8 +66,8 @@ pub fn white(reflectance: f32) -> Material {
         name: format!("white {reflectance}"),
         pigment: Pigment::Color(Vec3::ONE),
         reflectance,
-        specular: 0.0,
         shininess: 1.0,
+        ..Material::default()
     }
 }
 
@@ -77,7 +79,7 @@ pub fn empty() -> Description {
 }
 
 pub fn sphere(center: Vec3, radius: f32) -> Sphere {
-    Sphere { center, radius, material: 0 }
+    Sphere { center, radius, sides: Sides::Both, material: 0 }
 }
 
 pub fn plane(normal: Vec3, distance: f32) -> Plane {
@@ -87,7 +89,7 @@ pub fn plane(normal: Vec3, distance: f32) -> Plane {
 /// Triangles that share no vertex.
 pub fn mesh(corners: &[[Vec3; 3]]) -> Mesh {
     let triangles = (0..corners.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    Mesh { positions: corners.as_flattened().to_vec(), triangles, material: 0 }
+    Mesh { positions: corners.as_flattened().to_vec(), triangles, ..Mesh::default() }
 }
 
 /// A light of power 1 in every channel.

@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 use raypacket::render::{Camera, Film, Kernel, render};
-use raypacket::scene::{CameraDescription, Description, Material};
+use raypacket::scene::{CameraDescription, Description, Material, Sky};
 
 use crate::common::{all_builtins, compiled, empty, film_bits, light, picture, plane, sphere, white};
 
@@ -24,7 +24,7 @@ fn depth_one_does_not_look_into_mirrors() {
         let with = |reflectance: f32| {
             let mut scene = scene.clone();
             scene.settings.max_depth = 1;
-            scene.sky.color = Vec3::ZERO;
+            scene.sky = Sky::Color(Vec3::ZERO);
             scene.materials.iter_mut().for_each(|m| m.reflectance = reflectance);
             scene
         };
@@ -48,7 +48,7 @@ fn between_mirrors(material: Material, depth: u32) -> Description {
     scene.materials = vec![material, white(0.0)];
     scene.settings.max_depth = depth;
     scene.settings.ambient = vec3(0.5, 0.25, 1.0);
-    scene.sky.color = vec3(0.25, 1.0, 0.5);
+    scene.sky = Sky::Color(vec3(0.25, 1.0, 0.5));
     scene.planes = vec![plane(Vec3::Z, 3.0), plane(Vec3::NEG_Z, 3.0)];
     scene.spheres.push(sphere(vec3(0.7, 0.2, -1.0), 0.5));
     scene.spheres[0].material = 1;

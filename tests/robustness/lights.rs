@@ -3,7 +3,7 @@
 use glam::{Vec3, vec3};
 use raypacket::reference;
 use raypacket::render::{Camera, Film, Kernel, primary_hits};
-use raypacket::scene::{CameraDescription, Description, Settings};
+use raypacket::scene::{CameraDescription, Description, Settings, Sky};
 use raypacket::trace::NONE;
 
 use crate::SCALES;
@@ -96,7 +96,7 @@ fn a_light_at_the_eye_throws_no_shadow() {
 fn seen_is_lit(mut scene: Description) {
     scene.lights = vec![light(scene.camera.eye)];
     scene.settings = Settings { max_depth: 1, attenuation: false, ambient: Vec3::ZERO };
-    scene.sky.color = Vec3::ZERO;
+    scene.sky = Sky::Color(Vec3::ZERO);
     scene.materials.iter_mut().for_each(|m| m.reflectance *= 0.5);
     let film = picture(&scene, Kernel::X8, SIZE[0], SIZE[1]);
     let camera = Camera::new(&scene.camera, SIZE[0] as f32 / SIZE[1] as f32);
@@ -177,7 +177,7 @@ fn without_lights_there_is_ambient_light_and_sky() {
     for mut scene in all_builtins() {
         scene.lights.clear();
         scene.settings.ambient = vec3(0.5, 0.25, 0.125);
-        scene.sky.color = vec3(1.0, 2.0, 4.0);
+        scene.sky = Sky::Color(vec3(1.0, 2.0, 4.0));
         scene.materials.iter_mut().for_each(|m| {
             (m.reflectance, m.pigment) = (0.0, raypacket::scene::Pigment::Color(Vec3::ONE));
         });

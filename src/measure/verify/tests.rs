@@ -2,7 +2,7 @@
 use super::bound::U;
 use super::*;
 use crate::reference::{Camera, Tracer};
-use crate::scene::{CameraDescription, Light, Material, Mesh, Pigment, Plane, Sphere};
+use crate::scene::{CameraDescription, Light, Material, Mesh, Pigment, Plane, Sides, Sphere};
 use crate::trace::NONE;
 use glam::{Vec3, vec3};
 
@@ -24,7 +24,7 @@ impl Owned {
 /// A checkered floor, a mirror, a dull sphere, a triangle with an edge straight ahead, and a light.
 fn scene() -> Description {
     let material =
-        |pigment, reflectance| Material { name: String::new(), pigment, reflectance, specular: 0.2, shininess: 20.0 };
+        |pigment, reflectance| Material { pigment, reflectance, specular: 0.2, shininess: 20.0, ..Material::default() };
     let checker = Pigment::Checker { colors: [Vec3::splat(0.9), Vec3::splat(0.1)], size: 1.0 };
     let positions = vec![vec3(0.0, 2.0, -2.0), vec3(0.0, 4.0, -2.0), vec3(1.5, 3.0, -2.0)];
     Description {
@@ -38,10 +38,10 @@ fn scene() -> Description {
         ],
         planes: vec![Plane { normal: Vec3::Y, distance: 0.0, material: 0 }],
         spheres: vec![
-            Sphere { center: vec3(0.0, 1.0, 0.0), radius: 0.75, material: 1 },
-            Sphere { center: vec3(-2.0, 1.0, 0.0), radius: 1.0, material: 2 },
+            Sphere { center: vec3(0.0, 1.0, 0.0), radius: 0.75, sides: Sides::Both, material: 1 },
+            Sphere { center: vec3(-2.0, 1.0, 0.0), radius: 1.0, sides: Sides::Both, material: 2 },
         ],
-        meshes: vec![Mesh { positions, triangles: vec![[0, 1, 2]], material: 2 }],
+        meshes: vec![Mesh { positions, triangles: vec![[0, 1, 2]], material: 2, ..Mesh::default() }],
         ..Default::default()
     }
 }

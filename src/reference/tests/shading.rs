@@ -1,6 +1,6 @@
 //! What a ray sees.
 use super::*;
-use crate::scene::Light;
+use crate::scene::{Light, Sky};
 
 fn lamp(position: Vec3) -> Light {
     Light { position, power: vec3(400.0, 200.0, 100.0) }
@@ -18,7 +18,7 @@ fn irradiance(distance: f64) -> DVec3 {
 #[test]
 fn sky_and_ambient() {
     let mut scene = planes(&[floor(0.0)]);
-    scene.sky.color = vec3(0.125, 0.25, 0.5);
+    scene.sky = Sky::Color(vec3(0.125, 0.25, 0.5));
     scene.settings.ambient = vec3(1.0, 2.0, 0.5);
     assert_eq!(see(&scene, DVec3::Y, DVec3::Y), dvec3(0.125, 0.25, 0.5));
     assert_eq!(see(&scene, DVec3::Y, -DVec3::Y), dvec3(0.5, 0.5, 0.5));
@@ -117,10 +117,10 @@ fn mirrors_stop_at_the_depth() {
 fn a_mirror_shows_the_sky_along_the_reflected_ray() {
     let mut scene = planes(&[floor(0.0)]);
     scene.materials[0].reflectance = 1.0;
-    scene.sky.color = vec3(0.5, 0.75, 1.0);
+    scene.sky = Sky::Color(vec3(0.5, 0.75, 1.0));
     assert_near(see(&scene, DVec3::Y, dvec3(1.0, -1.0, 0.0)), dvec3(0.5, 0.75, 1.0));
     scene.materials.push(Material { reflectance: 0.0, ..material() });
-    scene.spheres = vec![Sphere { center: vec3(4.0, 3.0, 0.0), radius: 0.1, material: 1 }];
+    scene.spheres = vec![Sphere { center: vec3(4.0, 3.0, 0.0), radius: 0.1, sides: Sides::Both, material: 1 }];
     assert_eq!(see(&scene, DVec3::Y, dvec3(1.0, -1.0, 0.0)), DVec3::ZERO, "the unlit sphere, seen in the mirror");
 }
 

@@ -1,5 +1,6 @@
 //! From a file to a [`Description`]; every fault is one line that names the file, the line and the key.
 
+mod image;
 mod obj;
 mod place;
 mod strict;

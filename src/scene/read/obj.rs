@@ -35,7 +35,7 @@ fn parse(bytes: &[u8], path: &Path) -> Result<Mesh, ReadError> {
     Ok(Mesh {
         positions: mesh.positions.as_chunks().0.iter().copied().map(Vec3::from_array).collect(),
         triangles: mesh.indices.as_chunks().0.to_vec(),
-        material: 0,
+        ..Mesh::default()
     })
 }
 

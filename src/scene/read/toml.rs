@@ -2,16 +2,17 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::{
-    MAX_OBJ_BYTES, ReadError, obj, place,
+    MAX_OBJ_BYTES, ReadError, image, obj, place,
     strict::{Exactly, Table},
 };
 use crate::scene::{
-    CameraDescription, Description, Invalid, Light, Material, Mesh, Pigment, Plane, Settings, Sky, Sphere, check,
+    CameraDescription, Cone, Cuboid, Cylinder, Description, Dome, Fractal, Invalid, Light, Material, Mesh, Pigment,
+    Plane, Quad, Settings, Sides, Sky, Sphere, Torus, check,
 };
 
 /// The material of a primitive that names none, unless the file defines one of this name.
@@ -41,6 +42,13 @@ struct SceneFile {
     materials: BTreeMap<String, Table<MaterialFile>>,
     plane: Vec<Table<PlaneFile>>,
     sphere: Vec<Table<SphereFile>>,
+    triangle: Vec<Table<TriangleFile>>,
+    quad: Vec<Table<QuadFile>>,
+    r#box: Vec<Table<BoxFile>>,
+    cylinder: Vec<Table<CylinderFile>>,
+    cone: Vec<Table<ConeFile>>,
+    torus: Vec<Table<TorusFile>>,
+    fractal: Vec<Table<FractalFile>>,
     mesh: Vec<Table<MeshFile>>,
 }
 
@@ -75,16 +83,13 @@ impl Default for SettingsFile {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct SkyFile {
-    color: Triple,
-}
-
-impl Default for SkyFile {
-    fn default() -> Self {
-        Self { color: Sky::default().color.into() }
-    }
+    color: Option<Triple>,
+    gradient: Option<Exactly<Triple, 2>>,
+    image: Option<String>,
+    rotation: Option<f32>,
 }
 
 #[derive(Deserialize)]
@@ -99,14 +104,31 @@ struct LightFile {
 struct MaterialFile {
     color: Option<Triple>,
     checker: Option<Table<CheckerFile>>,
+    texture: Option<String>,
+    texture_size: Option<f32>,
     reflectance: f32,
+    transmission: f32,
+    ior: f32,
+    absorption: Triple,
     specular: f32,
     shininess: f32,
 }
 
 impl Default for MaterialFile {
     fn default() -> Self {
-        Self { color: None, checker: None, reflectance: 0.0, specular: 0.0, shininess: 50.0 }
+        let Material { reflectance, transmission, ior, absorption, specular, shininess, .. } = Material::default();
+        Self {
+            color: None,
+            checker: None,
+            texture: None,
+            texture_size: None,
+            reflectance,
+            transmission,
+            ior,
+            absorption: absorption.into(),
+            specular,
+            shininess,
+        }
     }
 }
 
@@ -135,8 +157,80 @@ struct SphereFile {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+struct TriangleFile {
+    vertices: Exactly<Triple, 3>,
+    normals: Option<Exactly<Triple, 3>>,
+    uvs: Option<Exactly<Exactly<f32, 2>, 3>>,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct QuadFile {
+    corner: Triple,
+    u: Triple,
+    v: Triple,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoxFile {
+    min: Triple,
+    max: Triple,
+    rotation: Option<Triple>,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CylinderFile {
+    base: Triple,
+    apex: Triple,
+    radius: f32,
+    #[serde(default)]
+    caps: bool,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ConeFile {
+    base: Triple,
+    base_radius: f32,
+    apex: Triple,
+    apex_radius: f32,
+    #[serde(default)]
+    caps: bool,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TorusFile {
+    center: Triple,
+    axis: Triple,
+    major_radius: f32,
+    minor_radius: f32,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FractalFile {
+    center: Triple,
+    radius: f32,
+    iterations: u32,
+    material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct MeshFile {
     file: String,
+    scale: Option<f32>,
+    rotation: Option<Triple>,
+    translation: Option<Triple>,
     material: Option<String>,
 }
 
@@ -180,76 +274,206 @@ fn describe(scene: SceneFile, name: String, folder: &Path) -> Result<Description
     let Table(CameraFile { eye, look_at, up, fov }) = scene.camera;
     let Table(SettingsFile { max_depth, attenuation, ambient }) = scene.settings;
     let lights = scene.light.into_iter().map(|Table(l)| Light { position: l.position.into(), power: l.power.into() });
-    let used = (scene.plane.iter().map(|t| &t.0.material))
-        .chain(scene.sphere.iter().map(|t| &t.0.material))
-        .chain(scene.mesh.iter().map(|t| &t.0.material));
-    let default_is_used = used.map(|name| name.as_deref().unwrap_or(DEFAULT_MATERIAL)).any(|n| n == DEFAULT_MATERIAL);
-    let names = Names::new(scene.materials, default_is_used)?;
-
-    let mut planes = Vec::with_capacity(scene.plane.len());
-    for (i, Table(p)) in scene.plane.into_iter().enumerate() {
-        let material = names.find(p.material.as_deref(), || format!("plane[{i}].material"))?;
-        planes.push(Plane { normal: p.normal.into(), distance: p.distance, material });
-    }
-    let mut spheres = Vec::with_capacity(scene.sphere.len());
-    for (i, Table(s)) in scene.sphere.into_iter().enumerate() {
-        let material = names.find(s.material.as_deref(), || format!("sphere[{i}].material"))?;
-        spheres.push(Sphere { center: s.center.into(), radius: s.radius, material });
-    }
-    let mut meshes = Vec::with_capacity(scene.mesh.len());
-    let mut budget = MAX_OBJ_BYTES;
-    for (i, Table(m)) in scene.mesh.into_iter().enumerate() {
-        let material = names.find(m.material.as_deref(), || format!("mesh[{i}].material"))?;
-        let mesh = obj::read(&folder.join(&m.file), &mut budget)
-            .map_err(|error| Invalid { key: format!("mesh[{i}].file"), problem: error.to_string() })?;
-        meshes.push(Mesh { material, ..mesh });
-    }
-    Ok(Description {
+    let mut textures = image::Textures::new(folder);
+    let mut names = Names::new(scene.materials, &mut textures)?;
+    let mut description = Description {
         name,
         camera: CameraDescription { eye: eye.into(), look_at: look_at.into(), up: up.into(), fov },
         settings: Settings { max_depth, attenuation, ambient: ambient.into() },
-        sky: Sky { color: scene.sky.0.color.into() },
+        sky: sky(scene.sky.0, folder)?,
         lights: lights.collect(),
-        materials: names.0,
-        planes,
-        spheres,
-        meshes,
+        ..Description::default()
+    };
+    description.planes = each("plane", scene.plane, |p| {
+        Ok(Plane { normal: p.normal.into(), distance: p.distance, material: names.find(p.material)? })
+    })?;
+    description.spheres = each("sphere", scene.sphere, |s| {
+        let material = names.find(s.material)?;
+        Ok(Sphere { center: s.center.into(), radius: s.radius, sides: Sides::Both, material })
+    })?;
+    let mut budget = MAX_OBJ_BYTES;
+    description.meshes = each("mesh", scene.mesh, |m| {
+        let material = names.find(m.material)?;
+        let mut mesh = obj::read(&folder.join(&m.file), &mut budget).map_err(|e| Fault("file", e.to_string()))?;
+        place_mesh(&mut mesh, m.scale, m.rotation, m.translation)?;
+        Ok(Mesh { material, ..mesh })
+    })?;
+    let triangles = each("triangle", scene.triangle, |t| {
+        let corners = t.vertices.0.map(Vec3::from);
+        check::triangle(corners).map_err(|problem| Fault("vertices", problem))?;
+        Ok(Mesh {
+            positions: corners.into(),
+            normals: t.normals.map(|n| n.0.map(Vec3::from).into()).unwrap_or_default(),
+            uvs: t.uvs.map(|uvs| uvs.0.map(|uv| Vec2::from(uv.0)).into()).unwrap_or_default(),
+            triangles: vec![[0, 1, 2]],
+            material: names.find(t.material)?,
+            ..Mesh::default()
+        })
+    })?;
+    description.meshes.extend(triangles);
+    description.quads = each("quad", scene.quad, |q| {
+        Ok(Quad { corner: q.corner.into(), u: q.u.into(), v: q.v.into(), material: names.find(q.material)? })
+    })?;
+    description.cuboids = each("box", scene.r#box, |b| {
+        let rotation = b.rotation.map(Vec3::from).unwrap_or_default();
+        Ok(Cuboid { min: b.min.into(), max: b.max.into(), rotation, material: names.find(b.material)? })
+    })?;
+    description.cylinders = each("cylinder", scene.cylinder, |c| {
+        let material = names.find(c.material)?;
+        let (base, apex) = (c.base.into(), c.apex.into());
+        Ok(Cylinder { base, apex, radius: c.radius, caps: c.caps, sides: Sides::Both, material })
+    })?;
+    description.cones = each("cone", scene.cone, |c| {
+        Ok(Cone {
+            base: c.base.into(),
+            base_radius: c.base_radius,
+            apex: c.apex.into(),
+            apex_radius: c.apex_radius,
+            caps: c.caps,
+            sides: Sides::Both,
+            material: names.find(c.material)?,
+        })
+    })?;
+    description.tori = each("torus", scene.torus, |t| {
+        Ok(Torus {
+            center: t.center.into(),
+            axis: t.axis.into(),
+            major_radius: t.major_radius,
+            minor_radius: t.minor_radius,
+            material: names.find(t.material)?,
+        })
+    })?;
+    description.fractals = each("fractal", scene.fractal, |f| {
+        let material = names.find(f.material)?;
+        Ok(Fractal { center: f.center.into(), radius: f.radius, iterations: f.iterations, material })
+    })?;
+    description.materials = names.materials;
+    description.textures = textures.images;
+    Ok(description)
+}
+
+/// What is wrong with a key of an element.
+struct Fault(&'static str, String);
+
+/// Turns the elements of the array `name` into primitives.
+fn each<F, P>(
+    name: &str,
+    elements: Vec<Table<F>>,
+    mut primitive: impl FnMut(F) -> Result<P, Fault>,
+) -> Result<Vec<P>, Invalid> {
+    let one = |(i, Table(element))| {
+        primitive(element).map_err(|Fault(key, problem)| Invalid { key: format!("{name}[{i}].{key}"), problem })
+    };
+    elements.into_iter().enumerate().map(one).collect()
+}
+
+fn sky(file: SkyFile, folder: &Path) -> Result<Sky, Invalid> {
+    let SkyFile { color, gradient, image, rotation } = file;
+    let given = usize::from(color.is_some()) + usize::from(gradient.is_some()) + usize::from(image.is_some());
+    let invalid = |key: &str, problem: String| Invalid { key: format!("sky.{key}"), problem };
+    if given > 1 {
+        let key = if image.is_some() { "image" } else { "gradient" };
+        return Err(invalid(key, "only one of color, gradient and image".into()));
+    }
+    if rotation.is_some() && image.is_none() {
+        return Err(invalid("rotation", "only goes with image".into()));
+    }
+    if let Some(file) = image {
+        let (width, height, texels) =
+            image::panorama(&folder.join(&file)).map_err(|error| invalid("image", error.to_string()))?;
+        let dome = Dome { width, height, texels, rotation: rotation.unwrap_or(0.0) };
+        return Ok(Sky::Dome(dome.into()));
+    }
+    Ok(match gradient {
+        Some(Exactly([below, above])) => Sky::Gradient { below: below.into(), above: above.into() },
+        None => Sky::Color(color.map(Vec3::from).unwrap_or_default()),
     })
 }
 
-fn material((name, Table(file)): (String, Table<MaterialFile>)) -> Result<Material, Invalid> {
-    let MaterialFile { color, checker, reflectance, specular, shininess } = file;
-    let pigment = match (color, checker) {
-        (Some(_), Some(_)) => {
-            let key = format!("materials.{}.checker", check::key_part(&name));
-            return Err(Invalid { key, problem: "either color or checker, not both".into() });
-        }
-        (None, Some(Table(c))) => Pigment::Checker { colors: c.colors.0.map(Vec3::from), size: c.size },
-        (Some(c), None) => Pigment::Color(c.into()),
-        (None, None) => Pigment::Color(Vec3::splat(0.8)),
-    };
-    Ok(Material { name, pigment, reflectance, specular, shininess })
+/// Scales, then turns about x, y and z, then moves.
+fn place_mesh(
+    mesh: &mut Mesh,
+    scale: Option<f32>,
+    rotation: Option<Triple>,
+    translation: Option<Triple>,
+) -> Result<(), Fault> {
+    let scale = f64::from(scale.unwrap_or(1.0));
+    if !(scale > 0.0 && scale.is_finite()) {
+        return Err(Fault("scale", format!("must be above 0 and finite, got {scale}")));
+    }
+    let degrees = rotation.map(Vec3::from).unwrap_or_default();
+    if !degrees.is_finite() {
+        return Err(Fault("rotation", "must be finite".into()));
+    }
+    let [x, y, z] = degrees.as_dvec3().to_array().map(f64::to_radians);
+    let turn = glam::DMat3::from_rotation_z(z) * glam::DMat3::from_rotation_y(y) * glam::DMat3::from_rotation_x(x);
+    let to = translation.map(Vec3::from).unwrap_or_default().as_dvec3();
+    for p in &mut mesh.positions {
+        *p = (turn * (p.as_dvec3() * scale) + to).as_vec3();
+        check::vertex(*p).map_err(|problem| Fault("translation", format!("a vertex {problem}")))?;
+    }
+    for n in &mut mesh.normals {
+        *n = (turn * n.as_dvec3()).as_vec3();
+    }
+    Ok(())
 }
 
-/// The materials, sorted by name.
-struct Names(Vec<Material>);
+fn material(
+    (name, Table(file)): (String, Table<MaterialFile>),
+    textures: &mut image::Textures,
+) -> Result<Material, Invalid> {
+    let MaterialFile { color, checker, texture, texture_size, reflectance, transmission, .. } = file;
+    let invalid =
+        |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", check::key_part(&name)), problem };
+    if usize::from(color.is_some()) + usize::from(checker.is_some()) + usize::from(texture.is_some()) > 1 {
+        let key = if checker.is_some() { "checker" } else { "texture" };
+        return Err(invalid(key, "only one of color, checker and texture".into()));
+    }
+    if texture_size.is_some() && texture.is_none() {
+        return Err(invalid("texture_size", "only goes with texture".into()));
+    }
+    let pigment = match (color, checker, texture) {
+        (Some(c), ..) => Pigment::Color(c.into()),
+        (_, Some(Table(c)), _) => Pigment::Checker { colors: c.colors.0.map(Vec3::from), size: c.size },
+        (.., Some(file)) => {
+            let texture = textures.load(&file).map_err(|error| invalid("texture", error.to_string()))?;
+            Pigment::Texture { texture, size: texture_size.unwrap_or(1.0) }
+        }
+        _ => Pigment::Color(Vec3::splat(0.8)),
+    };
+    let MaterialFile { ior, absorption, specular, shininess, .. } = file;
+    let absorption = absorption.into();
+    Ok(Material { name, pigment, reflectance, transmission, ior, absorption, additive: false, specular, shininess })
+}
+
+/// The materials, sorted by name, and the default after them where it is used and not among them.
+struct Names {
+    materials: Vec<Material>,
+    named: usize,
+}
 
 impl Names {
-    fn new(mut materials: BTreeMap<String, Table<MaterialFile>>, default_is_used: bool) -> Result<Self, Invalid> {
-        if default_is_used {
-            materials.entry(DEFAULT_MATERIAL.into()).or_default();
-        }
-        materials.into_iter().map(material).collect::<Result<_, _>>().map(Self)
+    fn new(materials: BTreeMap<String, Table<MaterialFile>>, textures: &mut image::Textures) -> Result<Self, Invalid> {
+        let materials = materials.into_iter().map(|m| material(m, textures)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { named: materials.len(), materials })
     }
 
-    fn find(&self, name: Option<&str>, key: impl FnOnce() -> String) -> Result<usize, Invalid> {
-        let wanted = name.unwrap_or(DEFAULT_MATERIAL);
-        let found = self.0.binary_search_by(|m| m.name.as_str().cmp(wanted));
-        found.map_err(|_| Invalid { key: key(), problem: self.missing(wanted) })
+    fn find(&mut self, name: Option<String>) -> Result<usize, Fault> {
+        let wanted = name.as_deref().unwrap_or(DEFAULT_MATERIAL);
+        match self.materials[..self.named].binary_search_by(|m| m.name.as_str().cmp(wanted)) {
+            Ok(index) => Ok(index),
+            Err(_) if wanted == DEFAULT_MATERIAL => {
+                if self.materials.len() == self.named {
+                    self.materials.push(Material { name: wanted.into(), ..Material::default() });
+                }
+                Ok(self.named)
+            }
+            Err(_) => Err(Fault("material", self.missing(wanted))),
+        }
     }
 
     fn missing(&self, wanted: &str) -> String {
-        let near = self.0.iter().map(|m| (edits(&m.name, wanted), &m.name)).min();
+        let near = self.materials[..self.named].iter().map(|m| (edits(&m.name, wanted), &m.name)).min();
         match near.filter(|(edits, _)| *edits <= 2) {
             Some((_, name)) => format!("no material {wanted:?}, did you mean {name:?}?"),
             None => format!("no material {wanted:?}"),

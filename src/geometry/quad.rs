@@ -1,0 +1,220 @@
+//! The parallelogram corner + a u + b v, a and b from 0 to 1, seen from both sides.
+//!
+//! One method: [`moller_trumbore`] ([`super::triangle`]) with both coordinates up to 1. The plane is missed by at most
+//! 8 ε (|o − corner| + longest edge) / sin of the angle between the edges. Edges belong to the quad. A ray in its plane
+//! misses it.
+
+use super::{Balls, Bounded, Nearest, Primitives, Surface, frame};
+use crate::math::{LaneMask, Lanes, Vec3};
+
+/// Quads, column by column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Quads {
+    /// The corners.
+    pub corner: [Vec<f32>; 3],
+    /// The edges along which the first coordinate runs.
+    pub u: [Vec<f32>; 3],
+    /// The edges along which the second runs.
+    pub v: [Vec<f32>; 3],
+    /// Unit normals, u × v; for shading.
+    pub unit: Vec<glam::Vec3>,
+    /// The longest edge over the sine of the angle between the edges.
+    pub reach: Vec<f32>,
+    /// Indices into the scene's materials.
+    pub material: Vec<u32>,
+    balls: Balls,
+}
+
+/// A quad as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct QuadRecord {
+    /// Its corner.
+    pub corner: Vec3<f32>,
+    /// Its first edge.
+    pub u: Vec3<f32>,
+    /// Its second edge.
+    pub v: Vec3<f32>,
+}
+
+/// What a quad's test needs of it and of the rays' origin, with T = o − corner.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenQuad<L> {
+    /// N = u × v.
+    pub n: Vec3<L>,
+    /// T × v.
+    pub u: Vec3<L>,
+    /// u × T.
+    pub v: Vec3<L>,
+    /// −T·N.
+    pub height: L,
+}
+
+impl Quads {
+    /// Adds a quad.
+    pub fn push(&mut self, corner: glam::Vec3, u: glam::Vec3, v: glam::Vec3, material: u32) {
+        for axis in 0..3 {
+            self.corner[axis].push(corner[axis]);
+            self.u[axis].push(u[axis]);
+            self.v[axis].push(v[axis]);
+        }
+        self.material.push(material);
+        let [u, v] = [u, v].map(|e| e.as_dvec3());
+        let n = u.cross(v);
+        self.unit.push(n.normalize().as_vec3());
+        self.reach.push((u.length().max(v.length()) * (u.length() * v.length() / n.length())) as f32);
+        self.balls.push_around(self.bounds(self.material.len() - 1));
+    }
+
+    /// A box around quad `i`.
+    pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
+        let [corner, u, v] = self.corner_and_edges(i);
+        let corners = [corner, corner + u, corner + v, corner + u + v];
+        let around =
+            |pick: fn(glam::Vec3, glam::Vec3) -> glam::Vec3| corners.into_iter().reduce(pick).unwrap_or(corner);
+        // The far corners were rounded.
+        let slack = glam::Vec3::splat(f32::EPSILON * corners.iter().map(|c| c.abs().max_element()).fold(0.0, f32::max));
+        [around(glam::Vec3::min) - slack, around(glam::Vec3::max) + slack]
+    }
+
+    /// Corner and edges of quad `i`.
+    #[inline(always)]
+    pub fn corner_and_edges(&self, i: usize) -> [glam::Vec3; 3] {
+        let at = |c: &[Vec<f32>; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
+        [at(&self.corner), at(&self.u), at(&self.v)]
+    }
+}
+
+impl Bounded for Quads {
+    fn balls(&self) -> &Balls {
+        &self.balls
+    }
+}
+
+impl Primitives for Quads {
+    type Record = QuadRecord;
+    type Seen<L: Lanes> = SeenQuad<L>;
+    type Aim<L: Lanes> = Vec3<L>;
+
+    fn len(&self) -> usize {
+        self.material.len()
+    }
+    #[inline(always)]
+    fn material(&self, i: usize) -> u32 {
+        self.material[i]
+    }
+    #[inline(always)]
+    fn record(&self, i: usize) -> QuadRecord {
+        let [corner, u, v] = self.corner_and_edges(i).map(Vec3::from);
+        QuadRecord { corner, u, v }
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(r: &QuadRecord, origin: Vec3<L>) -> SeenQuad<L> {
+        let [corner, u, v] = [r.corner, r.u, r.v].map(|a| Vec3::splat(a.into()));
+        let n = u.cross(v);
+        let t = origin - corner;
+        SeenQuad { n, u: t.cross(v), v: u.cross(t), height: -t.dot(n) }
+    }
+    #[inline(always)]
+    fn splat<L: Lanes>(s: &SeenQuad<f32>) -> SeenQuad<L> {
+        let [n, u, v] = [s.n, s.u, s.v].map(|a| Vec3::splat(a.into()));
+        SeenQuad { n, u, v, height: L::splat(s.height) }
+    }
+    #[inline(always)]
+    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
+        direction
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenQuad<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+        moller_trumbore(seen, *d, t_min, t_max)
+    }
+
+    #[inline(always)]
+    fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
+        let normal = Vec3::splat(self.unit[i]);
+        let height = normal.dot(point - Vec3::splat(self.corner_and_edges(i)[0]));
+        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
+    }
+    #[inline(always)]
+    fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
+        let [corner, u, v] = self.corner_and_edges(i).map(Vec3::splat);
+        let q = surface.point - corner;
+        let per_area = L::splat(1.0) / surface.normal.dot(u.cross(v));
+        [surface.normal.dot(q.cross(v)) * per_area, surface.normal.dot(u.cross(q)) * per_area]
+    }
+    #[inline(always)]
+    fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
+        let [t, b] = frame(self.unit[i]).map(Vec3::splat);
+        Vec3::new(surface.point.dot(t), surface.point.dot(b), L::zero())
+    }
+}
+
+/// See the module's text.
+#[inline(always)]
+pub fn moller_trumbore<L: Lanes>(seen: &SeenQuad<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    let inverse = L::splat(1.0) / seen.n.dot(direction);
+    let t = seen.height * inverse;
+    let inside = t.gt(t_min) & t.lt(t_max);
+    if !inside.any() {
+        return None;
+    }
+    let u = seen.u.dot(direction) * inverse;
+    let v = seen.v.dot(direction) * inverse;
+    let inside = inside & L::zero().le(u.min(v)) & u.max(v).le(L::splat(1.0));
+    inside.any().then_some((t, inside))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3 as V, vec3};
+
+    fn quads() -> Quads {
+        let mut quads = Quads::default();
+        quads.push(vec3(1.0, 0.0, 0.0), V::X * 2.0, vec3(1.0, 3.0, 0.0), 0);
+        quads
+    }
+
+    fn hit(origin: V, direction: V) -> Option<f32> {
+        let quads = quads();
+        moller_trumbore(&Quads::seen(&quads.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY)
+            .map(|(t, _)| t)
+    }
+
+    #[test]
+    fn inside_outside_and_both_sides() {
+        for (x, y, inside) in [
+            (1.5, 0.5, true),
+            (3.9, 2.9, true),
+            (1.0, 0.0, true),
+            (4.0, 3.0, true),
+            (2.0, 3.0, true),
+            (1.5, 2.9, false),
+            (3.5, 0.5, false),
+            (0.9, 0.0, false),
+            (2.0, 3.1, false),
+            (2.0, -0.1, false),
+        ] {
+            assert_eq!(hit(vec3(x, y, 2.0), V::NEG_Z), inside.then_some(2.0), "{x} {y}");
+            assert_eq!(hit(vec3(x, y, -2.0), V::Z), inside.then_some(2.0), "{x} {y}");
+            assert_eq!(hit(vec3(x, y, -2.0), V::NEG_Z), None);
+        }
+    }
+
+    #[test]
+    fn rays_in_the_plane_miss() {
+        assert_eq!(hit(vec3(-1.0, 1.0, 0.0), V::X), None);
+        assert_eq!(hit(vec3(2.0, 1.0, 0.0), V::Z), None);
+    }
+
+    #[test]
+    fn uv_are_the_coordinates() {
+        let quads = quads();
+        let [u, v] = quads.uv(0, &quads.surface::<f32>(0, vec3(3.0, 1.5, 0.25).into()));
+        assert!((u - 0.75).abs() < 1e-6 && (v - 0.5).abs() < 1e-6, "{u} {v}");
+    }
+
+    #[test]
+    fn bounds_hold_all_corners() {
+        assert_eq!(quads().bounds(0).map(|v| v.round()), [vec3(1.0, 0.0, 0.0), vec3(4.0, 3.0, 0.0)]);
+    }
+}
