@@ -3,25 +3,20 @@
 //! Needs `Xvfb` and `xdotool`. Without them these tests say so and pass; with RAYPACKET_REQUIRE_DISPLAY set they fail.
 #![cfg(target_os = "linux")]
 
+#[path = "common/display.rs"]
+mod display;
+
+use display::{Display, Region, Running, WINDOW, uniform, until, without_display};
 use std::{
-    env,
     ffi::OsStr,
     fs,
-    io::{BufRead, BufReader, Read},
+    io::Read,
     path::Path,
-    process::{Child, Command, ExitStatus, Stdio},
+    process::{Command, Stdio},
     thread::sleep,
-    time::{Duration, Instant},
+    time::Duration,
 };
-use tempfile::TempDir;
 
-/// Everything is waited for this long: a slow machine is no fault.
-const PATIENCE: Duration = Duration::from_secs(60);
-const SCREEN: (usize, usize) = (1100, 600);
-const WINDOW: (usize, usize) = (1024, 512);
-
-/// A rectangle of the window: columns and rows.
-type Region = (std::ops::Range<usize>, std::ops::Range<usize>);
 /// The 3D view below the overlay and above the messages.
 const VIEW: Region = (0..512, 280..470);
 /// The slice below its legend and above its scale.
@@ -31,134 +26,18 @@ const TITLE: Region = (0..150, 4..24);
 /// Where the keys are shown.
 const HELP: Region = (0..200, 110..250);
 
-/// A process that does not outlive the test.
-struct Running(Child);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.0.kill().ok();
-        self.0.wait().ok();
-    }
-}
-
-impl Running {
-    fn wait(&mut self) -> ExitStatus {
-        until("the program's end", || self.0.try_wait().unwrap())
-    }
-
-    fn is_alive(&mut self) -> bool {
-        self.0.try_wait().unwrap().is_none()
-    }
-}
-
-/// Asks until there is an answer.
-fn until<T>(what: &str, mut answer: impl FnMut() -> Option<T>) -> T {
-    let start = Instant::now();
-    loop {
-        if let Some(answer) = answer() {
-            return answer;
-        }
-        assert!(start.elapsed() < PATIENCE, "waited in vain for {what}");
-        sleep(Duration::from_millis(50));
-    }
-}
-
 /// The program, told of no display.
 fn raypacket(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_raypacket"));
-    for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
-        command.env_remove(name);
-    }
-    command.args(arguments).stdin(Stdio::null());
+    let mut command = without_display(env!("CARGO_BIN_EXE_raypacket"));
+    command.args(arguments);
     command
-}
-
-/// An X server without a screen. It keeps its pixels in a file, which needs no further program to look at.
-struct Display {
-    name: String,
-    pixels: TempDir,
-    _server: Running,
-}
-
-impl Display {
-    /// None when the programs that it takes are not installed.
-    fn start() -> Option<Self> {
-        let found = |name: &str| env::split_paths(&env::var_os("PATH")?).map(|p| p.join(name)).find(|p| p.is_file());
-        for name in ["Xvfb", "xdotool"] {
-            if found(name).is_none() {
-                assert!(env::var_os("RAYPACKET_REQUIRE_DISPLAY").is_none(), "{name} is not in PATH");
-                eprintln!("SKIPPED: {name} is not in PATH, so the window is not tested");
-                return None;
-            }
-        }
-        let pixels = tempfile::tempdir().unwrap();
-        let mut command = Command::new("Xvfb");
-        command.args(["-displayfd", "1", "-screen", "0", &format!("{}x{}x24", SCREEN.0, SCREEN.1)]);
-        // Without -noreset the server starts anew, and refuses connections for a moment, whenever its last client goes.
-        command.args(["-noreset", "-nolisten", "tcp", "-fbdir"]).arg(pixels.path());
-        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-        let mut server = Running(command.spawn().unwrap());
-        let mut number = String::new();
-        BufReader::new(server.0.stdout.take().unwrap()).read_line(&mut number).unwrap();
-        assert!(!number.trim().is_empty(), "Xvfb did not start");
-        Some(Self { name: format!(":{}", number.trim()), pixels, _server: server })
-    }
-
-    fn xdotool(&self, arguments: &[&str]) -> String {
-        let output = Command::new("xdotool").args(arguments).env("DISPLAY", &self.name).output().unwrap();
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    /// A part of the window, which minifb puts in the middle of the screen: 0RGB, row by row.
-    fn look(&self, region: &Region) -> Vec<u32> {
-        let file = fs::read(self.pixels.path().join("Xvfb_screen0")).unwrap();
-        // The file is an X window dump: a header of big-endian words, a palette, rows of little-endian pixels.
-        let word = |i: usize| u32::from_be_bytes(file[4 * i..4 * i + 4].try_into().unwrap()) as usize;
-        let (header, row_bytes, palette) = (word(0), word(12), word(19));
-        assert_eq!((word(4), word(5), word(11)), (SCREEN.0, SCREEN.1, 32));
-        let data = &file[header + 12 * palette..];
-        let (left, top) = ((SCREEN.0 - WINDOW.0) / 2, (SCREEN.1 - WINDOW.1) / 2);
-        let row = |y: usize| {
-            let pixel = move |x: usize| (y + top) * row_bytes + 4 * (x + left);
-            region.0.clone().map(pixel).map(|i| u32::from_le_bytes(data[i..i + 4].try_into().unwrap()) & 0xFF_FF_FF)
-        };
-        region.1.clone().flat_map(row).collect()
-    }
-
-    /// Waits until a part of the window has come to rest, and differs from what it was before.
-    fn changed(&self, region: &Region, before: &[u32], what: &str) -> Vec<u32> {
-        self.settled(region, what, |now| now != before)
-    }
-
-    fn settled(&self, region: &Region, what: &str, good: impl Fn(&[u32]) -> bool) -> Vec<u32> {
-        until(what, || {
-            let now = self.look(region);
-            sleep(Duration::from_millis(300));
-            (good(&now) && self.look(region) == now).then_some(now)
-        })
-    }
-
-    fn hold(&self, key: &str, time: Duration) {
-        self.xdotool(&["keydown", key]);
-        sleep(time);
-        self.xdotool(&["keyup", key]);
-    }
-}
-
-fn uniform(pixels: &[u32]) -> bool {
-    pixels.iter().all(|pixel| *pixel == pixels[0])
 }
 
 /// `raypacket view classic` with its window open, in the focus and showing its first frame.
 fn open(display: &Display, folder: &Path) -> (Running, String) {
     let mut command = raypacket(&["view", "classic"]);
     let mut program = Running(command.env("DISPLAY", &display.name).current_dir(folder).spawn().unwrap());
-    let window = until("a window", || {
-        assert!(program.is_alive(), "the program ended");
-        let found = display.xdotool(&["search", "--onlyvisible", "--name", "raypacket"]);
-        found.lines().next().map(str::to_owned)
-    });
-    display.xdotool(&["windowfocus", &window]);
+    let window = display.focus(&mut program, "raypacket");
     display.xdotool(&["mousemove", "--window", &window, "300", "300"]);
     display.settled(&VIEW, "the first frame", |now| !uniform(now));
     (program, window)
