@@ -11,5 +11,5 @@ mod vec3;
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
 pub use lanes::{LaneMask, Lanes, MOST_LANES};
-pub use power::powf;
+pub use power::{exp2, powf};
 pub use vec3::Vec3;

@@ -27,8 +27,10 @@ fn log2<L: Lanes>(x: L) -> L {
     polynomial(s * s, [0.320_598_9, 0.412_198_6, 0.577_078, 0.961_796_7, 2.885_39]).mul_add(s, exponent)
 }
 
+/// 2 to the power x from 2⁻⁶⁰ on, with a relative error of at most 2e-7; for less it is that, for more than 127
+/// that.
 #[inline(always)]
-fn exp2<L: Lanes>(x: L) -> L {
+pub fn exp2<L: Lanes>(x: L) -> L {
     // Adding and subtracting 1.5 · 2²³ rounds to a whole number, whose bits then stand at the low end.
     let round = L::splat(12_582_912.0);
     let x = x.max(L::splat(LEAST)).min(L::splat(127.0));

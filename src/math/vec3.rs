@@ -58,6 +58,12 @@ impl<L: Lanes> Vec3<L> {
         )
     }
 
+    /// Component by component.
+    #[inline(always)]
+    pub fn times(self, o: Self) -> Self {
+        Self::new(self.x * o.x, self.y * o.y, self.z * o.z)
+    }
+
     /// self · s + o.
     #[inline(always)]
     pub fn mul_add(self, s: L, o: Self) -> Self {

@@ -40,7 +40,7 @@ impl Default for Options {
 /// One query at one kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measured {
-    /// `primary`, `shadow`, `reflection`, `frame`, or `rays:` and the ray file's extension.
+    /// `primary`, `shadow`, `reflection`, `refraction`, `frame`, or `rays:` and the ray file's extension.
     pub query: String,
     /// `x1`, `x4`, `x8`.
     pub kernel: &'static str,
@@ -113,6 +113,7 @@ pub fn run(description: &Description, options: &Options) -> Result<Report, Bench
         measure("primary".into(), false, &streams.primary);
         measure("shadow".into(), true, &streams.shadow);
         measure("reflection".into(), false, &streams.reflection);
+        measure("refraction".into(), false, &streams.refraction);
         results.extend(time_frames(&scene, &camera, options.size));
     }
     Ok(Report {

@@ -17,6 +17,8 @@ pub struct Streams {
     pub shadow: Vec<RayBatch>,
     /// From mirrors, of all waves.
     pub reflection: Vec<RayBatch>,
+    /// Through transparent surfaces, of all waves.
+    pub refraction: Vec<RayBatch>,
 }
 
 impl Streams {
@@ -27,7 +29,7 @@ impl Streams {
         let stride = tiles.div_ceil(MOST) | 1;
         let mut streams = Self::default();
         record(scene, camera, Kernel::X8, [width, height], stride, &mut streams);
-        for batches in [&mut streams.primary, &mut streams.shadow, &mut streams.reflection] {
+        for batches in [&mut streams.primary, &mut streams.shadow, &mut streams.reflection, &mut streams.refraction] {
             thin(batches);
         }
         streams
@@ -51,5 +53,8 @@ impl crate::shade::Observer for Streams {
     }
     fn reflection(&mut self, rays: &RayBatch) {
         self.reflection.push(rays.clone());
+    }
+    fn refraction(&mut self, rays: &RayBatch) {
+        self.refraction.push(rays.clone());
     }
 }

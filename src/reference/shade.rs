@@ -1,6 +1,6 @@
 //! Whitted shading: the light that arrives along a ray.
 use super::{Tracer, texture, turned};
-use crate::scene::{Light, Material, Pigment};
+use crate::scene::{LEAST_WEIGHT, Light, Material, Pigment};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -29,19 +29,45 @@ struct Way<'a> {
     rounding: &'a Rounding,
     /// The number of segments so far; the eye ray is 1.
     depth: u32,
+    /// What the ray counts for in its pixel.
+    weight: f64,
+    /// What absorption has left of it.
+    tint: DVec3,
+    /// The materials of the bodies that it is in, the one it entered last at the end.
+    inside: &'a [usize],
 }
 
 /// A point on a surface, as shading sees it.
 struct Point<'a> {
     /// Exactly on the surface but for rounding.
     position: DVec3,
-    /// Unit, turned against the ray.
+    /// Unit normal of the surface, turned against the ray.
     normal: DVec3,
+    /// Unit normal for shading, on the same side.
+    smooth: DVec3,
+    /// Whether the ray came from the surface's front.
+    front: bool,
+    /// How far it came.
+    distance: f64,
     /// The size of the numbers that made `position`.
     scale: f64,
     material: &'a Material,
+    index: usize,
     base: DVec3,
 }
+
+/// What lies before and behind a surface.
+struct Passage {
+    /// The material of the body that the ray came through.
+    from: Option<usize>,
+    /// Index of refraction before the surface, divided by the one behind it.
+    eta: f64,
+    /// The bodies that a ray is in behind it.
+    inside: Vec<usize>,
+}
+
+/// The most surfaces that are looked through to find the bodies around a point.
+const MOST_SURFACES: usize = 1000;
 
 impl Tracer {
     /// The linear radiance seen from `origin` along the unit `direction`.
@@ -51,22 +77,96 @@ impl Tracer {
 
     /// The same, as it looks with more rounding.
     pub fn radiance_rounded(&self, origin: DVec3, direction: DVec3, rounding: &Rounding) -> DVec3 {
-        self.radiance_along(origin, direction, Way { rounding, depth: 1 })
+        let inside = self.around(origin);
+        self.radiance_along(origin, direction, Way { rounding, depth: 1, weight: 1.0, tint: DVec3::ONE, inside: &inside })
     }
 
     fn radiance_along(&self, origin: DVec3, direction: DVec3, way: Way<'_>) -> DVec3 {
-        let Some(point) = self.visible(origin, direction, way) else { return texture::sky(&self.sky, direction) };
-        let mirrored = reflect(direction, point.normal);
-        let reflectance = f64::from(point.material.reflectance);
+        let Some(point) = self.visible(origin, direction, way) else {
+            return texture::sky(&self.sky, direction) * self.left(way.inside.last().copied(), f64::INFINITY);
+        };
+        let material = point.material;
+        let passage = self.passage(&point, way.inside);
+        let left = self.left(passage.from, point.distance);
+        let mirrored = reflect(direction, point.smooth);
         let ambient = self.settings.ambient.as_dvec3() * point.base;
         let lit: DVec3 = self.lights.iter().map(|light| self.direct(light, &point, mirrored, way.rounding)).sum();
-        let own = (1.0 - reflectance) * (ambient + lit);
-        if reflectance > 0.0 && way.depth < self.settings.max_depth {
-            let next = Way { depth: way.depth + 1, ..way };
-            own + reflectance * self.radiance_along(point.lifted(way.rounding), mirrored, next)
-        } else {
-            own
+        let [reflectance, transmission] = [material.reflectance, material.transmission].map(f64::from);
+        let own = if material.additive { 1.0 } else { 1.0 - reflectance - transmission };
+        let mut sum = own * (ambient + lit);
+        if way.depth < self.settings.max_depth {
+            let (f, refracted) = dielectric(direction, &point, passage.eta, material.additive);
+            let next = |part: f64, origin: DVec3, direction: Option<DVec3>, inside: &[usize]| {
+                let (weight, tint) = (way.weight * part, way.tint * left);
+                let follow = weight > 0.0 && (!self.refracts || weight * tint.max_element() >= f64::from(LEAST_WEIGHT));
+                let next = Way { depth: way.depth + 1, weight, tint, inside, ..way };
+                direction.filter(|_| follow).map_or(DVec3::ZERO, |d| part * self.radiance_along(origin, d, next))
+            };
+            let above = point.lifted(way.rounding, 1.0);
+            let mirrored = if mirrored.dot(point.normal) > 0.0 { mirrored } else { reflect(direction, point.normal) };
+            sum += next(reflectance + transmission * f, above, Some(mirrored), way.inside);
+            let below = point.lifted(way.rounding, -1.0);
+            sum += next(transmission * (1.0 - f), below, refracted, &passage.inside);
         }
+        sum * left
+    }
+
+    /// What absorption leaves of a ray by channel, after `distance` in a body of this material.
+    fn left(&self, body: Option<usize>, distance: f64) -> DVec3 {
+        let absorption = body.map_or(DVec3::ZERO, |m| self.materials[m].absorption.as_dvec3());
+        absorption.map(|sigma| if sigma > 0.0 { (-sigma * distance).exp() } else { 1.0 })
+    }
+
+    fn passage(&self, point: &Point<'_>, inside: &[usize]) -> Passage {
+        let ior = |body: Option<&usize>| body.map_or(1.0, |&m| f64::from(self.materials[m].ior));
+        let from = inside.last().copied();
+        let mut after = inside.to_vec();
+        if point.material.transmission <= 0.0 {
+            return Passage { from, eta: 1.0, inside: after };
+        }
+        if point.front {
+            after.push(point.index);
+            return Passage { from, eta: ior(inside.last()) / ior(after.last()), inside: after };
+        }
+        // Who leaves what was never entered must have been in it from the start.
+        let from = match inside.iter().rposition(|&m| m == point.index) {
+            Some(at) => {
+                after.remove(at);
+                from
+            }
+            None => Some(point.index),
+        };
+        Passage { from, eta: ior(from.as_ref()) / ior(after.last()), inside: after }
+    }
+
+    /// The materials of the bodies around a point: those that a ray from there leaves without having entered them,
+    /// outermost first.
+    fn around(&self, point: DVec3) -> Vec<usize> {
+        let mut left = Vec::new();
+        if !self.refracts {
+            return left;
+        }
+        let direction = DVec3::new(1.0, 3.0, 2.0).normalize();
+        let mut entered = Vec::new();
+        let mut origin = point;
+        for _ in 0..MOST_SURFACES {
+            let Some(hit) = self.intersect(origin, direction, f64::INFINITY) else { break };
+            let primitive = &self.primitives[hit.primitive as usize];
+            let place = primitive.project(origin + hit.t * direction);
+            let front = primitive.normal(place).dot(direction) <= 0.0;
+            let scale = place.length().max(primitive.extent());
+            origin = place + Rounding::FINE.lift * scale * direction;
+            let material = primitive.material();
+            if self.materials[material].transmission <= 0.0 {
+                continue;
+            }
+            match (front, entered.iter().rposition(|&m| m == material)) {
+                (true, _) => entered.push(material),
+                (false, Some(at)) => drop(entered.remove(at)),
+                (false, None) => left.insert(0, material),
+            }
+        }
+        left
     }
 
     fn visible(&self, origin: DVec3, direction: DVec3, way: Way<'_>) -> Option<Point<'_>> {
@@ -79,7 +179,10 @@ impl Tracer {
         let primitive = &self.primitives[hit.primitive as usize];
         let position = primitive.project(rough);
         let material = &self.materials[primitive.material()];
-        let normal = turned(primitive.normal(position), direction);
+        let outward = primitive.normal(position);
+        let normal = turned(outward, direction);
+        let smooth = primitive.shading_normal(position);
+        let smooth = if smooth.dot(normal) < 0.0 { -smooth } else { smooth };
         let base = match material.pigment {
             Pigment::Color(color) => color.as_dvec3(),
             Pigment::Checker { colors, size } => checker(colors, primitive.checker(position) / f64::from(size)),
@@ -87,7 +190,17 @@ impl Tracer {
                 texture::sample(&self.textures[texture], primitive.uv(position) / f64::from(size))
             }
         };
-        Some(Point { position, normal, scale, material, base })
+        Some(Point {
+            position,
+            normal,
+            smooth,
+            front: outward.dot(direction) <= 0.0,
+            distance: hit.t,
+            scale,
+            material,
+            index: primitive.material(),
+            base,
+        })
     }
 
     /// What one light adds: E (base n·l + specular max(0, r·l)^shininess), unless something is in the way.
@@ -95,8 +208,8 @@ impl Tracer {
         let position = light.position.as_dvec3();
         let to_light = position - point.position;
         let Some(l) = to_light.try_normalize() else { return DVec3::ZERO };
-        let cosine = point.normal.dot(l);
-        if cosine <= 0.0 || self.shadowed(point, position, rounding) {
+        let cosine = point.smooth.dot(l);
+        if cosine <= 0.0 || point.normal.dot(l) <= 0.0 || self.shadowed(point, position, rounding) {
             return DVec3::ZERO;
         }
         let power = light.power.as_dvec3();
@@ -108,7 +221,7 @@ impl Tracer {
 
     /// Whether anything lies between the surface and a light, the two ends left out.
     fn shadowed(&self, point: &Point<'_>, light: DVec3, rounding: &Rounding) -> bool {
-        let start = point.lifted(rounding);
+        let start = point.lifted(rounding, 1.0);
         let (direction, distance) = (light - start).normalize_and_length();
         // A surface through the light itself does not block it.
         let slack = rounding.lift * (distance + light.length());
@@ -117,9 +230,10 @@ impl Tracer {
 }
 
 impl Point<'_> {
-    /// Where a secondary ray starts: off the surface by more than the rounding of its position.
-    fn lifted(&self, rounding: &Rounding) -> DVec3 {
-        self.position + rounding.lift * self.scale * self.normal
+    /// Where a secondary ray starts: off the surface by more than the rounding of its position, on the side that the
+    /// ray came from (1) or on the other (−1).
+    fn lifted(&self, rounding: &Rounding, side: f64) -> DVec3 {
+        self.position + side * rounding.lift * self.scale * self.normal
     }
 }
 
@@ -128,6 +242,30 @@ fn slid(shift: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
     // The normal faces the ray. Next to grazing, a curved surface ends the slide before the plane would.
     let slope = normal.dot(direction).min(-1e-3);
     shift - direction * (shift.dot(normal) / slope)
+}
+
+/// Fresnel's reflectance for unpolarised light, and the direction of the refracted ray unless all is reflected. An
+/// additive material has a reflectance of 0 up to there.
+fn dielectric(direction: DVec3, point: &Point<'_>, eta: f64, additive: bool) -> (f64, Option<DVec3>) {
+    let bent = |normal: DVec3| {
+        let c = -normal.dot(direction);
+        let sine2 = eta * eta * (1.0 - c * c);
+        (c, (sine2 < 1.0).then(|| (1.0 - sine2).sqrt()))
+    };
+    let (c, through) = bent(point.smooth);
+    let Some(through) = through else { return (1.0, None) };
+    let snell = |c: f64, through: f64, normal: DVec3| (eta * direction + (eta * c - through) * normal).normalize();
+    let refracted = snell(c, through, point.smooth);
+    let refracted = match bent(point.normal) {
+        (c, Some(through)) if refracted.dot(point.normal) >= 0.0 => snell(c, through, point.normal),
+        _ => refracted,
+    };
+    if additive {
+        return (0.0, Some(refracted));
+    }
+    let perpendicular = (eta * c - through) / (eta * c + through);
+    let parallel = (c - eta * through) / (c + eta * through);
+    ((perpendicular.powi(2) + parallel.powi(2)) / 2.0, Some(refracted))
 }
 
 fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {

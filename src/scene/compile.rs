@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
+
 use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
 use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
 
@@ -32,6 +34,10 @@ pub struct Scene {
     pub first: First,
     /// Materials, by index.
     pub materials: Vec<Material>,
+    /// Transparent bodies by number; 0 is what is around them all.
+    pub bodies: Vec<Body>,
+    /// The number of the body that a material makes, by its index; 0 for one that is not transparent.
+    pub body_of: Vec<u16>,
     /// Texture images, by index.
     pub textures: Vec<Arc<Texture>>,
     /// Point lights.
@@ -42,6 +48,15 @@ pub struct Scene {
     pub settings: Settings,
     /// What the scene needs, and why.
     pub plan: Plan,
+}
+
+/// What a transparent body is filled with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Index of refraction.
+    pub ior: f32,
+    /// Absorption a world unit, by channel.
+    pub absorption: Vec3,
 }
 
 /// The first id of every kind of primitive; that of planes is 0.
@@ -151,6 +166,15 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     first.cones = first.cylinders + cylinders.len() as u32;
     first.tori = first.cones + cones.len() as u32;
     first.fractals = first.tori + tori.len() as u32;
+    let mut bodies = vec![Body { ior: 1.0, absorption: Vec3::ZERO }];
+    let body = |m: &Material| {
+        if m.transmission <= 0.0 {
+            return 0;
+        }
+        bodies.push(Body { ior: m.ior, absorption: m.absorption });
+        (bodies.len() - 1) as u16
+    };
+    let body_of = description.materials.iter().map(body).collect();
     Ok(Scene {
         planes,
         spheres,
@@ -163,6 +187,8 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
         fractals,
         first,
         materials: description.materials.clone(),
+        bodies,
+        body_of,
         textures: description.textures.clone(),
         lights: description.lights.clone(),
         sky: description.sky.clone(),

@@ -9,7 +9,7 @@ mod read;
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
-pub use compile::{First, Scene, compile};
+pub use compile::{Body, First, Scene, compile};
 pub use description::*;
 pub use plan::{Plan, ShadowStart};
 pub use read::*;

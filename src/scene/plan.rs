@@ -29,13 +29,18 @@ pub struct Plan {
     pub rare: bool,
     /// Whether any triangle has vertex normals.
     pub smooth: bool,
-    /// How many segments a path may have: 1 where nothing reflects, else the scene's `max_depth`.
+    /// How many segments a path may have: 1 where nothing reflects or transmits, else the scene's `max_depth`.
     pub waves: u32,
+    /// Whether anything transmits.
+    pub refracts: bool,
+    /// Whether any of that absorbs.
+    pub absorbs: bool,
     /// Whether any material has a highlight, so that the Phong term is evaluated.
     pub highlights: bool,
     /// Where each light's shadow rays start.
     pub shadows: Vec<ShadowStart>,
     mirrors: usize,
+    glasses: usize,
     materials: usize,
 }
 
@@ -61,14 +66,18 @@ impl Plan {
         let one_sided = description.spheres.iter().any(|s| s.sides != Sides::Both)
             || description.meshes.iter().any(|m| m.sides != Sides::Both);
         let mirrors = count(&|m| m.reflectance > 0.0);
+        let glasses = count(&|m| m.transmission > 0.0);
         Self {
             primitives,
             rare: one_sided || primitives[3..].iter().any(|n| *n > 0),
             smooth: description.meshes.iter().any(|m| !m.normals.is_empty()),
-            waves: if mirrors == 0 { 1 } else { description.settings.max_depth },
+            waves: if mirrors + glasses == 0 { 1 } else { description.settings.max_depth },
+            refracts: glasses > 0,
+            absorbs: count(&|m| m.transmission > 0.0 && m.absorption != Vec3::ZERO) > 0,
             highlights: count(&|m| m.specular > 0.0) > 0,
             shadows: description.lights.iter().map(|l| shadow_start(description, l.position)).collect(),
             mirrors,
+            glasses,
             materials: used.iter().filter(|u| **u).count(),
         }
     }
@@ -162,9 +171,18 @@ impl fmt::Display for Plan {
             f,
             "structure   none: every batch of rays tests all that its origin ball and direction cone may meet"
         )?;
-        match (self.waves, self.mirrors) {
-            (_, 0) => writeln!(f, "waves       1: nothing reflects")?,
-            (waves, n) => writeln!(f, "waves       {waves}: {n} of {} materials reflect; max_depth", self.materials)?,
+        match (self.waves, self.mirrors, self.glasses) {
+            (_, 0, 0) => writeln!(f, "waves       1: nothing reflects")?,
+            (waves, n, 0) => writeln!(f, "waves       {waves}: {n} of {} materials reflect; max_depth", self.materials)?,
+            (waves, n, k) => {
+                let materials = self.materials;
+                writeln!(f, "waves       {waves}: of {materials} materials {n} reflect and {k} transmit; max_depth")?;
+                let by = if self.absorbs { "absorption by channel" } else { "none absorbs" };
+                writeln!(f, "bodies      a ray keeps those it is in; {by}; what counts for less than 2^-14 is dropped")?;
+            }
+        }
+        if self.smooth {
+            writeln!(f, "normals     interpolated where a mesh has them")?;
         }
         let from_light = self.shadows.iter().filter(|s| **s == ShadowStart::Light).count();
         let from_point = self.shadows.len() - from_light;

@@ -85,7 +85,7 @@ impl Lighting {
         let position = scene.lights[light].position;
         self.rays.set_common_origin(position);
         let mut directions = Extent::<L>::empty();
-        let count = self.fire::<L>(scene, wave, surfaces, |_, at, point, normal, lift| {
+        let count = self.fire::<L>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
             let ray = spawn::shadow_from_light(Vec3::splat(position), point, normal, lift);
             directions.include(ray.direction, L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero()));
             ray
@@ -105,7 +105,7 @@ impl Lighting {
         let position = Vec3::splat(scene.lights[light].position);
         self.rays.common_origin = false;
         let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
-        let count = self.fire::<L>(scene, wave, surfaces, |rays, at, point, normal, lift| {
+        let count = self.fire::<L>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
             let ray = spawn::shadow_from_point(position, point, normal, lift);
             let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
             directions.include(ray.direction, active);
@@ -116,13 +116,15 @@ impl Lighting {
         (count, Bounds::new(origins.span(), directions.span()))
     }
 
-    /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number.
+    /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number. `towards` is 1 where they run to
+    /// the light and −1 where they come from it.
     #[inline(always)]
     fn fire<L: Lanes>(
         &mut self,
         scene: &Scene,
         wave: &Wave,
         surfaces: &Surfaces,
+        towards: f32,
         mut spawn: impl FnMut(&mut RayBatch, usize, Vec3<L>, Vec3<L>, L) -> ShadowRay<L>,
     ) -> u64 {
         let mut count = 0;
@@ -134,16 +136,21 @@ impl Lighting {
                 L::splat(-1.0).store(&mut self.rays.t_max[at..]);
                 continue;
             }
-            let (point, normal) = (Vec3::load(&surfaces.point, at), Vec3::load(&surfaces.normal, at));
-            let ray = spawn(&mut self.rays, at, point, normal, lift);
-            let lit = hit & ray.cosine.gt(L::zero());
+            let (point, geometric) = (Vec3::load(&surfaces.point, at), surfaces.geometric_normal(scene, at));
+            let ray = spawn(&mut self.rays, at, point, geometric, lift);
+            let mut lit = hit & ray.cosine.gt(L::zero());
+            let mut cosine = ray.cosine;
+            if scene.plan.smooth {
+                cosine = Vec3::<L>::load(&surfaces.normal, at).dot(ray.direction) * L::splat(towards);
+                lit = lit & cosine.gt(L::zero());
+            }
             count += u64::from(lit.bits().count_ones());
             ray.direction.store(&mut self.rays.direction, at);
             ray.t_max.select(lit, L::splat(-1.0)).store(&mut self.rays.t_max[at..]);
             if scene.settings.attenuation {
                 (ray.inverse * ray.inverse * L::splat(PER_SPHERE)).store(&mut self.arriving[at..]);
             }
-            ray.cosine.store(&mut self.cosine[at..]);
+            cosine.store(&mut self.cosine[at..]);
         }
         count
     }

@@ -1,9 +1,11 @@
 //! One eye ray and all that follows from it, segment by segment; for drawing.
 
+use super::body::{Inside, Passage, around};
+use super::refract::split;
 use super::spawn;
-use super::surface::surface;
+use super::surface::{shading_normal, surface};
 use crate::math::Vec3 as Lane3;
-use crate::scene::{Scene, ShadowStart};
+use crate::scene::{LEAST_WEIGHT, Scene, ShadowStart};
 use crate::trace::Probe;
 use glam::Vec3;
 
@@ -19,6 +21,8 @@ pub enum SegmentKind {
     },
     /// From a mirror.
     Reflection,
+    /// Through a transparent surface.
+    Refraction,
 }
 
 /// One straight piece of the light paths that one eye ray sets off.
@@ -34,41 +38,107 @@ pub struct Segment {
     pub direction: Vec3,
 }
 
-/// All segments an eye ray sets off, in the order they are traced.
+/// The most segments of one path: where reflections and refractions branch, the rest is not drawn.
+const MOST_SEGMENTS: usize = 1000;
+
+/// The segments an eye ray sets off: first the eye ray's, then those of every further ray before those that it sets
+/// off itself. At most [`MOST_SEGMENTS`] rays are followed; absorption is not taken into account.
 pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
-    let mut probe = Probe::default();
-    let mut segments = Vec::new();
-    let (mut from, mut direction) = (origin, direction);
-    let mut kind = SegmentKind::Primary;
-    for depth in 1..=scene.plan.waves {
-        let hit = probe.intersect(scene, from, direction);
-        let Some(hit) = hit else {
-            segments.push(Segment { kind, from, to: None, direction });
-            break;
+    let mut tree = Tree { scene, probe: Probe::default(), segments: Vec::new(), waiting: Vec::new() };
+    let inside = match scene.plan.refracts {
+        true => around(scene, origin, &mut tree.probe),
+        false => Inside::default(),
+    };
+    tree.waiting.push(Ray { kind: SegmentKind::Primary, origin, direction, inside, weight: 1.0, depth: 1 });
+    while let Some(ray) = tree.waiting.pop().filter(|_| tree.segments.len() < MOST_SEGMENTS) {
+        tree.follow(&ray);
+    }
+    tree.segments
+}
+
+/// A ray on its way.
+struct Ray {
+    kind: SegmentKind,
+    origin: Vec3,
+    direction: Vec3,
+    inside: Inside,
+    weight: f32,
+    depth: u32,
+}
+
+/// A path while it is followed.
+struct Tree<'a> {
+    scene: &'a Scene,
+    probe: Probe,
+    segments: Vec<Segment>,
+    waiting: Vec<Ray>,
+}
+
+/// Where a ray arrived, with both normals turned against it.
+struct Arrival {
+    point: Lane3<f32>,
+    normal: Lane3<f32>,
+    geometric: Lane3<f32>,
+    lift: f32,
+}
+
+impl Tree<'_> {
+    fn follow(&mut self, ray: &Ray) {
+        let Ray { kind, origin: from, direction, .. } = *ray;
+        let Some(hit) = self.probe.intersect(self.scene, from, direction) else {
+            self.segments.push(Segment { kind, from, to: None, direction });
+            return;
         };
-        let (s, material) = surface::<f32>(scene, hit.primitive, (from + direction * hit.t).into());
-        let (point, normal) = (Vec3::from(s.point), Vec3::from(s.normal));
-        segments.push(Segment { kind, from, to: Some(point), direction });
-        let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
-        let lift = spawn::lift::<f32>(s.point, s.reach);
-        for (light, start) in scene.lights.iter().zip(&scene.plan.shadows) {
+        let (s, material) = surface::<f32>(self.scene, hit.primitive, (from + direction * hit.t).into());
+        self.segments.push(Segment { kind, from, to: Some(s.point.into()), direction });
+        let front = Vec3::from(s.normal).dot(direction) <= 0.0;
+        let facing = |n: Lane3<f32>| if front { n } else { -n };
+        let arrival = Arrival {
+            point: s.point,
+            normal: facing(shading_normal(self.scene, hit.primitive, &s)),
+            geometric: facing(s.normal),
+            lift: spawn::lift::<f32>(s.point, s.reach),
+        };
+        self.shadows(&arrival);
+        if ray.depth < self.scene.plan.waves {
+            self.go_on(ray, &arrival, material as usize, front);
+        }
+    }
+
+    fn shadows(&mut self, at: &Arrival) {
+        for (light, start) in self.scene.lights.iter().zip(&self.scene.plan.shadows) {
             let spawn = match start {
                 ShadowStart::Light => spawn::shadow_from_light::<f32>,
                 ShadowStart::Point => spawn::shadow_from_point::<f32>,
             };
-            let ray = spawn(light.position.into(), s.point, normal.into(), lift);
-            if ray.cosine > 0.0 {
-                let blocked = probe.occluded(scene, ray.origin.into(), ray.direction.into(), ray.t_max);
-                let direction = (light.position - point).normalize();
+            let ray = spawn(light.position.into(), at.point, at.geometric, at.lift);
+            let from = Vec3::from(at.point);
+            let direction = (light.position - from).normalize();
+            let faces = !self.scene.plan.smooth || Vec3::from(at.normal).dot(direction) > 0.0;
+            if ray.cosine > 0.0 && faces {
+                let blocked = self.probe.occluded(self.scene, ray.origin.into(), ray.direction.into(), ray.t_max);
                 let kind = SegmentKind::Shadow { blocked };
-                segments.push(Segment { kind, from: point, to: Some(light.position), direction });
+                self.segments.push(Segment { kind, from, to: Some(light.position), direction });
             }
         }
-        if depth == scene.plan.waves || scene.materials[material as usize].reflectance <= 0.0 {
-            break;
-        }
-        let (o, d) = spawn::reflected::<f32>(Lane3::from(direction), s.point, normal.into(), lift);
-        (from, direction, kind) = (o.into(), d.into(), SegmentKind::Reflection);
     }
-    segments
+
+    /// Adds the reflected and the refracted ray, of which the first is followed first.
+    fn go_on(&mut self, ray: &Ray, at: &Arrival, material: usize, front: bool) {
+        let m = &self.scene.materials[material];
+        let passage = Passage::new(self.scene, ray.inside, self.scene.body_of[material], front);
+        let parts = [m.reflectance, m.transmission].map(|part| part * ray.weight);
+        let direction = Lane3::from(ray.direction);
+        let split = split::<f32>(direction, at.normal, at.geometric, passage.eta, parts, m.additive);
+        let least = if self.scene.plan.refracts { LEAST_WEIGHT } else { f32::MIN_POSITIVE };
+        let mut add = |kind, lift: f32, direction: Lane3<f32>, inside, weight| {
+            if weight >= least {
+                let origin = at.geometric.mul_add(lift, at.point).into();
+                let depth = ray.depth + 1;
+                self.waiting.push(Ray { kind, origin, direction: direction.into(), inside, weight, depth });
+            }
+        };
+        add(SegmentKind::Refraction, -at.lift, split.refracted, passage.inside, split.transmitted);
+        add(SegmentKind::Reflection, at.lift, split.reflected, ray.inside, split.mirror);
+    }
 }

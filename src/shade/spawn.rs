@@ -65,18 +65,20 @@ fn unit<L: Lanes>(v: Vec3<L>) -> (Vec3<L>, L, L) {
     (v * inverse, length, inverse)
 }
 
-/// Origin and unit direction of the mirror's ray for one that came along `direction`; `lift` is [`lift`]'s.
-#[inline(always)]
-pub fn reflected<L: Lanes>(direction: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> (Vec3<L>, Vec3<L>) {
-    (normal.mul_add(lift, point), mirror(direction, normal))
-}
-
 /// d − 2 (d·n) n, kept at unit length by one Newton step, so that errors do not add up over bounces.
 #[inline(always)]
 pub fn mirror<L: Lanes>(direction: Vec3<L>, normal: Vec3<L>) -> Vec3<L> {
     let twice = direction.dot(normal) * L::splat(-2.0);
     let r = normal.mul_add(twice, direction);
     r * r.dot(r).mul_add(L::splat(-0.5), L::splat(1.5))
+}
+
+/// [`mirror`], by the `geometric` normal where an interpolated one would send the ray below the surface; both are
+/// turned against the ray.
+#[inline(always)]
+pub fn mirror_above<L: Lanes>(direction: Vec3<L>, normal: Vec3<L>, geometric: Vec3<L>) -> Vec3<L> {
+    let r = mirror(direction, normal);
+    r.select(r.dot(geometric).gt(L::zero()), mirror(direction, geometric))
 }
 
 /// How far from the surface a ray starts that leaves it at `point`.

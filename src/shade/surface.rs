@@ -1,10 +1,11 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
+use super::body::{Inside, Passage};
 use super::spawn;
 use super::texture;
 use super::wave::Wave;
 use crate::geometry::{Primitives, Surface};
-use crate::math::{BATCH, LaneMask, Lanes, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, Vec3, exp2};
 use crate::scene::{Pigment, Scene, with_primitive};
 use crate::trace::Nearest;
 
@@ -14,8 +15,11 @@ use crate::trace::Nearest;
 pub struct Surfaces {
     /// Hit points, on the surface.
     pub point: [[f32; BATCH]; 3],
-    /// Unit normals, turned against the rays.
+    /// Unit normals for shading, turned against the rays.
     pub normal: [[f32; BATCH]; 3],
+    /// Unit normals of the surfaces themselves, turned against the rays; written only where the plan has interpolated
+    /// normals, and else the same as `normal`.
+    pub geometric: [[f32; BATCH]; 3],
     /// How far from the surface spawned rays start; below zero where nothing was hit.
     pub lift: [f32; BATCH],
     /// Diffuse colour times the ray's weight and what the mirror leaves of it.
@@ -28,6 +32,35 @@ pub struct Surfaces {
     pub shininess: [f32; BATCH],
     /// Whether any hit of the wave so far has a highlight.
     pub glossy: bool,
+    /// What refraction needs; written only where the plan refracts.
+    pub bodies: Bodies,
+}
+
+/// The transparent side of the surfaces that a wave's rays hit.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// Weight of what is transmitted.
+    pub transmission: [f32; BATCH],
+    /// Above 0 where the material's fractions are constant.
+    pub additive: [f32; BATCH],
+    /// Index of refraction before the surface, divided by the one behind it.
+    pub eta: [f32; BATCH],
+    /// The bodies that refracted rays are in.
+    pub inside: [Inside; BATCH],
+    /// What absorption has left of the rays where they arrived; written only where the plan absorbs.
+    pub tint: [[f32; BATCH]; 3],
+}
+
+impl Default for Bodies {
+    fn default() -> Self {
+        Self {
+            transmission: [0.0; BATCH],
+            additive: [0.0; BATCH],
+            eta: [1.0; BATCH],
+            inside: [Inside::default(); BATCH],
+            tint: [[1.0; BATCH]; 3],
+        }
+    }
 }
 
 impl Default for Surfaces {
@@ -35,12 +68,14 @@ impl Default for Surfaces {
         Self {
             point: [[0.0; BATCH]; 3],
             normal: [[0.0; BATCH]; 3],
+            geometric: [[0.0; BATCH]; 3],
             lift: [-1.0; BATCH],
             color: [[0.0; BATCH]; 3],
             mirror: [0.0; BATCH],
             specular: [0.0; BATCH],
             shininess: [1.0; BATCH],
             glossy: false,
+            bodies: Bodies::default(),
         }
     }
 }
@@ -52,10 +87,16 @@ struct Gathered<L> {
     normal: Vec3<L>,
     reach: L,
     color: Vec3<L>,
+    own: L,
     mirror: L,
     specular: L,
     shininess: L,
     glossy: bool,
+    /// For shading; the same as `normal` unless the plan has interpolated normals.
+    smooth: Vec3<L>,
+    /// Of account only where the plan refracts, as is the next.
+    transmission: L,
+    additive: L,
 }
 
 impl Surfaces {
@@ -85,12 +126,17 @@ impl Surfaces {
             g = gather(scene, id, p).select(same, g);
             left &= !same.bits();
         }
-        let normal = (-g.normal).select(g.normal.dot(direction).gt(L::zero()), g.normal);
+        let behind = g.normal.dot(direction).gt(L::zero());
+        let mut normal = (-g.normal).select(behind, g.normal);
+        if scene.plan.smooth {
+            normal.store(&mut self.geometric, at);
+            normal = (-g.smooth).select(behind, g.smooth);
+        }
         g.point.store(&mut self.point, at);
         normal.store(&mut self.normal, at);
         spawn::lift(g.point, g.reach).select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
-        let own = weight * (L::splat(1.0) - g.mirror);
+        let own = weight * g.own;
         (g.color * own).store(&mut self.color, at);
         (weight * g.mirror).store(&mut self.mirror[at..]);
         if scene.plan.highlights {
@@ -98,7 +144,53 @@ impl Surfaces {
             (g.specular * own).store(&mut self.specular[at..]);
             g.shininess.store(&mut self.shininess[at..]);
         }
+        if scene.plan.refracts {
+            (weight * g.transmission).store(&mut self.bodies.transmission[at..]);
+            g.additive.store(&mut self.bodies.additive[at..]);
+            self.bodies.pass::<L>(scene, wave, at, hit, !behind);
+        }
     }
+
+    /// The unit normals of the surfaces themselves for packet `at`, turned against the rays.
+    #[inline(always)]
+    pub fn geometric_normal<L: Lanes>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        Vec3::load(if scene.plan.smooth { &self.geometric } else { &self.normal }, at)
+    }
+}
+
+impl Bodies {
+    /// Finds what lies before and behind the surfaces of packet `at`, and what absorption leaves of the rays up to
+    /// there.
+    #[inline(never)]
+    fn pass<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>, front: L::Mask) {
+        let mut ids = [0; 8];
+        hit.primitive.store_ids(&mut ids);
+        let mut depth = [[0.0; 8]; 3];
+        let mut left = hit.found.bits();
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let material = with_primitive!(scene, ids[lane], |kind, i| kind.material(i));
+            let body = scene.body_of[material as usize];
+            let passage = Passage::new(scene, wave.inside[at + lane], body, front.bits() >> lane & 1 == 1);
+            self.eta[at + lane] = passage.eta;
+            self.inside[at + lane] = passage.inside;
+            let absorption = scene.bodies[usize::from(passage.from)].absorption;
+            (0..3).for_each(|axis| depth[axis][lane] = absorption[axis]);
+        }
+        if scene.plan.absorbs {
+            let tint = Vec3::load(&wave.tint, at);
+            absorbed(tint, Vec3::load(&depth, 0), hit.t).store(&mut self.tint, at);
+        }
+    }
+}
+
+/// What is left of a tint after a way `t` through something of the given absorption: e^(−σ t) of it.
+#[inline(always)]
+pub fn absorbed<L: Lanes>(tint: Vec3<L>, absorption: Vec3<L>, t: L) -> Vec3<L> {
+    let per_unit = t * L::splat(-std::f32::consts::LOG2_E);
+    let through = |tint: L, sigma: L| tint * exp2(sigma * per_unit);
+    Vec3::new(through(tint.x, absorption.x), through(tint.y, absorption.y), through(tint.z, absorption.z))
 }
 
 impl<L: Lanes> Gathered<L> {
@@ -109,10 +201,14 @@ impl<L: Lanes> Gathered<L> {
             normal: self.normal.select(mask, other.normal),
             reach: self.reach.select(mask, other.reach),
             color: self.color.select(mask, other.color),
+            own: self.own.select(mask, other.own),
             mirror: self.mirror.select(mask, other.mirror),
             specular: self.specular.select(mask, other.specular),
             shininess: self.shininess.select(mask, other.shininess),
             glossy: self.glossy | other.glossy,
+            smooth: self.smooth.select(mask, other.smooth),
+            transmission: self.transmission.select(mask, other.transmission),
+            additive: self.additive.select(mask, other.additive),
         }
     }
 }
@@ -134,15 +230,31 @@ fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
             texture::sample(&scene.textures[texture], u * per_size, v * per_size)
         }
     };
+    // What a scene does not have is not looked up: the second term is a copy then, and costs nothing.
+    let smooth = if scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
     Gathered {
         point: surface.point,
         normal: surface.normal,
         reach: L::splat(surface.reach),
         color,
+        own: L::splat(if m.additive { 1.0 } else { 1.0 - m.reflectance - m.transmission }),
         mirror: L::splat(m.reflectance),
         specular: L::splat(m.specular),
         shininess: L::splat(m.shininess),
         glossy: m.specular > 0.0,
+        smooth,
+        transmission: L::splat(m.transmission),
+        additive: L::splat(f32::from(u8::from(m.additive))),
+    }
+}
+
+/// The normal that primitive `id` is shaded by, on the side of the surface's own.
+#[inline(always)]
+pub fn shading_normal<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Vec3<L> {
+    if (scene.first.triangles..scene.first.quads).contains(&id) {
+        scene.triangles.shading_normal((id - scene.first.triangles) as usize, surface)
+    } else {
+        surface.normal
     }
 }
 

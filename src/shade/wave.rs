@@ -1,6 +1,8 @@
-//! A wave: the rays of a tile that are one reflection deeper than the last, packed together.
+//! A wave: rays of a tile that are equally many reflections and refractions from the eye, packed together.
 
+use super::body::Inside;
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
+use crate::scene::Plan;
 
 /// Rays on their way, and what they are worth.
 #[derive(Clone, Debug)]
@@ -10,6 +12,10 @@ pub struct Wave {
     pub rays: RayBatch,
     /// What a ray's radiance counts for in its pixel.
     pub weight: [f32; BATCH],
+    /// What absorption has left of it, by channel; of account only where the plan says that something absorbs.
+    pub tint: [[f32; BATCH]; 3],
+    /// The bodies that a ray is in; of account only where the plan says that something refracts.
+    pub inside: [Inside; BATCH],
     /// The pixel of the tile.
     pub pixel: [u8; BATCH],
 }
@@ -17,43 +23,83 @@ pub struct Wave {
 impl Default for Wave {
     /// No rays, but weight 1 and pixel i for ray i, as eye rays have them.
     fn default() -> Self {
-        Self { rays: RayBatch::default(), weight: [1.0; BATCH], pixel: std::array::from_fn(|i| i as u8) }
+        Self {
+            rays: RayBatch::default(),
+            weight: [1.0; BATCH],
+            tint: [[1.0; BATCH]; 3],
+            inside: [Inside::default(); BATCH],
+            pixel: std::array::from_fn(|i| i as u8),
+        }
     }
 }
 
+/// A packet of rays that leave a surface.
+#[derive(Clone, Copy)]
+pub struct Leaving<'a, L> {
+    /// Where they start.
+    pub origin: Vec3<L>,
+    /// Unit directions.
+    pub direction: Vec3<L>,
+    /// What they count for.
+    pub weight: L,
+    /// See [`Wave::tint`].
+    pub tint: Vec3<L>,
+    /// See [`Wave::inside`]; one a lane.
+    pub inside: &'a [Inside],
+    /// Their pixels, one a lane.
+    pub pixel: &'a [u8],
+}
+
 impl Wave {
-    /// Adds the lanes of a packet where `mask` is true, in order; their rays have no end.
+    /// Adds the lanes of a packet where `mask` is true, in order, as many as fit; their rays have no end. What is left
+    /// of the mask.
     #[inline(always)]
-    pub fn append<L: Lanes>(&mut self, origin: Vec3<L>, direction: Vec3<L>, weight: L, pixel: &[u8], mask: L::Mask) {
-        let to = self.rays.len;
-        if mask.all() {
-            origin.store(&mut self.rays.origin, to);
-            direction.store(&mut self.rays.direction, to);
-            L::splat(f32::INFINITY).store(&mut self.rays.t_max[to..]);
-            weight.store(&mut self.weight[to..]);
-            self.pixel[to..to + L::WIDTH].copy_from_slice(pixel);
-            self.rays.len = to + L::WIDTH;
-        } else {
-            let (mut o, mut d, mut w) = ([[0.0; 8]; 3], [[0.0; 8]; 3], [0.0; 8]);
-            origin.store(&mut o, 0);
-            direction.store(&mut d, 0);
-            weight.store(&mut w);
-            let mut left = mask.bits();
-            while left != 0 {
-                let lane = left.trailing_zeros() as usize;
-                let to = self.rays.len;
-                for axis in 0..3 {
-                    self.rays.origin[axis][to] = o[axis][lane];
-                    self.rays.direction[axis][to] = d[axis][lane];
-                }
-                self.rays.t_max[to] = f32::INFINITY;
-                self.weight[to] = w[lane];
-                self.pixel[to] = pixel[lane];
-                self.rays.len = to + 1;
-                left &= left - 1;
-            }
-        }
+    pub fn append<L: Lanes>(&mut self, plan: &Plan, leaving: &Leaving<L>, mask: L::Mask) -> u32 {
         self.rays.common_origin = false;
+        let to = self.rays.len;
+        if mask.all() && to + L::WIDTH <= BATCH {
+            leaving.origin.store(&mut self.rays.origin, to);
+            leaving.direction.store(&mut self.rays.direction, to);
+            L::splat(f32::INFINITY).store(&mut self.rays.t_max[to..]);
+            leaving.weight.store(&mut self.weight[to..]);
+            if plan.absorbs {
+                leaving.tint.store(&mut self.tint, to);
+            }
+            if plan.refracts {
+                self.inside[to..to + L::WIDTH].copy_from_slice(&leaving.inside[..L::WIDTH]);
+            }
+            self.pixel[to..to + L::WIDTH].copy_from_slice(&leaving.pixel[..L::WIDTH]);
+            self.rays.len = to + L::WIDTH;
+            return 0;
+        }
+        let (mut o, mut d, mut w, mut tint) = ([[0.0; 8]; 3], [[0.0; 8]; 3], [0.0; 8], [[0.0; 8]; 3]);
+        leaving.origin.store(&mut o, 0);
+        leaving.direction.store(&mut d, 0);
+        leaving.weight.store(&mut w);
+        if plan.absorbs {
+            leaving.tint.store(&mut tint, 0);
+        }
+        let mut left = mask.bits();
+        while left != 0 && self.rays.len < BATCH {
+            let lane = left.trailing_zeros() as usize;
+            let to = self.rays.len;
+            for axis in 0..3 {
+                self.rays.origin[axis][to] = o[axis][lane];
+                self.rays.direction[axis][to] = d[axis][lane];
+                if plan.absorbs {
+                    self.tint[axis][to] = tint[axis][lane];
+                }
+            }
+            self.rays.t_max[to] = f32::INFINITY;
+            self.weight[to] = w[lane];
+            if plan.refracts {
+                self.inside[to] = leaving.inside[lane];
+            }
+            self.pixel[to] = leaving.pixel[lane];
+            self.rays.len = to + 1;
+            left &= left - 1;
+        }
+        left
     }
 }
 
@@ -65,6 +111,8 @@ pub trait Observer {
     fn shadow(&mut self, _rays: &RayBatch) {}
     /// A wave of mirrored rays.
     fn reflection(&mut self, _rays: &RayBatch) {}
+    /// A wave of refracted rays.
+    fn refraction(&mut self, _rays: &RayBatch) {}
 }
 
 impl Observer for () {}

@@ -1,13 +1,16 @@
-//! Whitted's algorithm over the waves of a tile: trace, light, mirror, and again with the mirrored rays, compacted.
+//! Whitted's algorithm over the waves of a tile: trace, light, and again with the rays that mirrors and transparent
+//! bodies send on, compacted.
 
+use super::body::{Inside, around};
 use super::light::Lighting;
-use super::sky;
-use super::spawn;
-use super::surface::Surfaces;
-use super::wave::{Observer, Wave};
+use super::queue::{Kind, Queue};
+use super::refract::{Split, split};
+use super::surface::{Surfaces, absorbed};
+use super::wave::{Leaving, Observer, Wave};
+use super::{sky, spawn};
 use crate::math::{BATCH, LaneMask, Lanes, Vec3};
-use crate::scene::Scene;
-use crate::trace::{Bounds, Candidates, nearest_hits};
+use crate::scene::{LEAST_WEIGHT, Scene};
+use crate::trace::{Bounds, Candidates, Probe, nearest_hits};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,12 +21,14 @@ pub struct Counts {
     pub shadow: u64,
     /// From mirrors.
     pub reflection: u64,
+    /// Through transparent surfaces.
+    pub refraction: u64,
 }
 
 impl Counts {
     /// Of all kinds.
     pub fn total(&self) -> u64 {
-        self.primary + self.shadow + self.reflection
+        self.primary + self.shadow + self.reflection + self.refraction
     }
 }
 
@@ -34,6 +39,7 @@ impl std::ops::Add for Counts {
             primary: self.primary + o.primary,
             shadow: self.shadow + o.shadow,
             reflection: self.reflection + o.reflection,
+            refraction: self.refraction + o.refraction,
         }
     }
 }
@@ -42,14 +48,16 @@ impl std::ops::Add for Counts {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Workspace {
-    /// The eye rays, ray i for pixel i; filled by the caller and left as they are.
+    /// The eye rays, ray i for pixel i; filled by the caller and left as they are, but for the bodies they start in.
     pub primary: Wave,
     /// The tile's linear radiance.
     pub radiance: [[f32; BATCH]; 3],
-    waves: [Wave; 2],
+    queue: Queue,
     surfaces: Surfaces,
     lighting: Lighting,
     candidates: Candidates,
+    /// The eye of the last tile, and the bodies around it.
+    eye: Option<(glam::Vec3, Inside)>,
 }
 
 impl Default for Workspace {
@@ -57,114 +65,208 @@ impl Default for Workspace {
         Self {
             primary: Wave::default(),
             radiance: [[0.0; BATCH]; 3],
-            waves: [Wave::default(), Wave::default()],
+            queue: Queue::default(),
             surfaces: Surfaces::default(),
             lighting: Lighting::default(),
             candidates: Candidates::default(),
+            eye: None,
         }
     }
 }
 
-/// Traces and shades the eye rays of `work.primary` and all that follows from them into `work.radiance`.
+impl Workspace {
+    /// Finds the bodies that the eye rays start in.
+    #[inline(never)]
+    fn start_inside(&mut self, scene: &Scene) {
+        let origin = self.primary.rays.first_origin();
+        let inside = match self.eye {
+            Some((eye, inside)) if eye == origin => inside,
+            _ => around(scene, origin, &mut Probe::default()),
+        };
+        self.eye = Some((origin, inside));
+        self.primary.inside = [inside; BATCH];
+    }
+}
+
+/// Traces and shades the eye rays of `work.primary`, which start at one point, and all that follows from them into
+/// `work.radiance`.
+///
+/// A workspace goes with one scene.
 pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
-    let Workspace { primary, radiance, waves, surfaces, lighting, candidates } = work;
+    if scene.plan.refracts {
+        work.start_inside(scene);
+    }
+    let Workspace { primary, radiance, queue, surfaces, lighting, candidates, .. } = work;
     for axis in radiance.iter_mut() {
         axis[..primary.rays.len].fill(0.0);
     }
-    let [even, odd] = waves;
     observer.primary(&primary.rays);
-    for depth in 1..=scene.plan.waves {
-        let (wave, next): (&Wave, &mut Wave) = match depth {
-            1 => (primary, &mut *odd),
-            d if d % 2 == 0 => (odd, &mut *even),
-            _ => (even, &mut *odd),
-        };
-        let len = wave.rays.len;
-        if !arrive::<L>(scene, wave, surfaces, radiance, candidates, depth == 1) {
-            break;
+    let mut stage = Stage { scene, radiance, queue, surfaces, lighting, candidates };
+    counts.shadow += stage.shade::<L>(primary, 1, observer);
+    while let Some((wave, depth, kind)) = stage.queue.take() {
+        match kind {
+            Kind::Reflection => {
+                counts.reflection += wave.rays.len as u64;
+                observer.reflection(&wave.rays);
+            }
+            Kind::Refraction => {
+                counts.refraction += wave.rays.len as u64;
+                observer.refraction(&wave.rays);
+            }
         }
-        lighting.start(scene, len, surfaces.glossy);
-        for light in 0..scene.lights.len() {
-            counts.shadow += lighting.add::<L>(scene, light, wave, surfaces, candidates, observer);
-        }
-        let last = depth == scene.plan.waves;
-        next.rays.clear();
-        leave::<L>(wave, surfaces, lighting, radiance, depth == 1, if last { None } else { Some(&mut *next) });
-        counts.reflection += next.rays.len as u64;
-        if next.rays.len == 0 {
-            break;
-        }
-        observer.reflection(&next.rays);
+        counts.shadow += stage.shade::<L>(&wave, depth, observer);
+        stage.queue.give_back(wave);
     }
     counts
 }
 
-/// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
-#[inline(always)]
-fn arrive<L: Lanes>(
-    scene: &Scene,
-    wave: &Wave,
-    surfaces: &mut Surfaces,
-    radiance: &mut [[f32; BATCH]; 3],
-    candidates: &mut Candidates,
-    in_order: bool,
-) -> bool {
-    let Some(bounds) = Bounds::of::<L>(&wave.rays) else { return false };
-    let mut any = false;
-    surfaces.start(wave.rays.len);
-    nearest_hits::<L>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
-        if hit.found.any() {
-            any = true;
-            surfaces.find::<L>(scene, wave, at, hit);
-        }
-        let missed = active & !hit.found;
-        if missed.any() {
-            let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
-            deposit(wave, at, sky * L::load(&wave.weight[at..]), missed, radiance, in_order);
-        }
-    });
-    any
+/// What a tile's waves go through.
+struct Stage<'a> {
+    scene: &'a Scene,
+    radiance: &'a mut [[f32; BATCH]; 3],
+    queue: &'a mut Queue,
+    surfaces: &'a mut Surfaces,
+    lighting: &'a mut Lighting,
+    candidates: &'a mut Candidates,
 }
 
-/// Gives the light that the surfaces send back to their pixels, and makes the mirrors' rays, packed together.
-#[inline(always)]
-fn leave<L: Lanes>(
-    wave: &Wave,
-    surfaces: &Surfaces,
-    lighting: &Lighting,
-    radiance: &mut [[f32; BATCH]; 3],
-    in_order: bool,
-    mut next: Option<&mut Wave>,
-) {
-    for at in (0..wave.rays.len).step_by(L::WIDTH) {
-        let lift = L::load(&surfaces.lift[at..]);
-        let hit = lift.ge(L::zero());
-        if !hit.any() {
-            continue;
+impl Stage<'_> {
+    /// Traces and shades a wave, and queues the rays that go on from there; the number of shadow rays.
+    #[inline(always)]
+    fn shade<L: Lanes>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
+        let scene = self.scene;
+        if !self.arrive::<L>(wave, depth) {
+            return 0;
         }
-        let color = Vec3::<L>::load(&surfaces.color, at);
-        let irradiance = Vec3::<L>::load(&lighting.irradiance, at);
-        let mut sent = Vec3::new(color.x * irradiance.x, color.y * irradiance.y, color.z * irradiance.z);
-        if surfaces.glossy {
-            sent = Vec3::load(&lighting.highlight, at).mul_add(L::load(&surfaces.specular[at..]), sent);
+        self.lighting.start(scene, wave.rays.len, self.surfaces.glossy);
+        let mut shadow = 0;
+        for light in 0..scene.lights.len() {
+            shadow += self.lighting.add::<L>(scene, light, wave, self.surfaces, self.candidates, observer);
         }
-        deposit(wave, at, sent, hit, radiance, in_order);
-        if let Some(next) = &mut next {
+        self.leave::<L>(wave, depth);
+        shadow
+    }
+
+    /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
+    #[inline(always)]
+    fn arrive<L: Lanes>(&mut self, wave: &Wave, depth: u32) -> bool {
+        let Some(bounds) = Bounds::of::<L>(&wave.rays) else { return false };
+        let Self { scene, radiance, surfaces, candidates, .. } = self;
+        let mut any = false;
+        surfaces.start(wave.rays.len);
+        nearest_hits::<L>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
+            if hit.found.any() {
+                any = true;
+                surfaces.find::<L>(scene, wave, at, hit);
+            }
+            let missed = active & !hit.found;
+            if missed.any() {
+                let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
+                let mut seen = sky * L::load(&wave.weight[at..]);
+                if scene.plan.absorbs {
+                    seen = seen.times(endless::<L>(scene, wave, at));
+                }
+                deposit(scene, wave, at, seen, missed, radiance, depth == 1);
+            }
+        });
+        any
+    }
+
+    /// Gives the light that the surfaces send back to their pixels, and queues the rays that go on.
+    #[inline(always)]
+    fn leave<L: Lanes>(&mut self, wave: &Wave, depth: u32) {
+        let Self { scene, radiance, queue, surfaces, lighting, .. } = self;
+        let last = depth == scene.plan.waves;
+        for at in (0..wave.rays.len).step_by(L::WIDTH) {
+            let lift = L::load(&surfaces.lift[at..]);
+            let hit = lift.ge(L::zero());
+            if !hit.any() {
+                continue;
+            }
+            let color = Vec3::<L>::load(&surfaces.color, at);
+            let mut sent = color.times(Vec3::load(&lighting.irradiance, at));
+            if surfaces.glossy {
+                sent = Vec3::load(&lighting.highlight, at).mul_add(L::load(&surfaces.specular[at..]), sent);
+            }
+            if scene.plan.absorbs {
+                sent = sent.times(Vec3::load(&surfaces.bodies.tint, at));
+            }
+            deposit(scene, wave, at, sent, hit, radiance, depth == 1);
+            if last {
+                continue;
+            }
+            if scene.plan.refracts {
+                divide::<L>(scene, wave, surfaces, at, depth + 1, queue);
+                continue;
+            }
             let weight = L::load(&surfaces.mirror[at..]);
             let goes_on = hit & weight.gt(L::zero());
             if goes_on.any() {
-                let (point, normal) = (Vec3::load(&surfaces.point, at), Vec3::load(&surfaces.normal, at));
-                let (o, d) = spawn::reflected(Vec3::load(&wave.rays.direction, at), point, normal, lift);
-                next.append(o, d, weight, &wave.pixel[at..at + L::WIDTH], goes_on);
+                let (direction, point) = (Vec3::load(&wave.rays.direction, at), Vec3::load(&surfaces.point, at));
+                let normal = Vec3::load(&surfaces.normal, at);
+                let geometric = surfaces.geometric_normal(scene, at);
+                let direction = match scene.plan.smooth {
+                    false => spawn::mirror(direction, normal),
+                    true => spawn::mirror_above(direction, normal, geometric),
+                };
+                let origin = geometric.mul_add(lift, point);
+                let (inside, pixel) = (&wave.inside[at..], &wave.pixel[at..]);
+                let leaving = Leaving { origin, direction, weight, tint: color, inside, pixel };
+                queue.append::<L>(&scene.plan, depth + 1, Kind::Reflection, &leaving, goes_on);
             }
         }
     }
 }
 
+/// Queues the reflected and the refracted rays of packet `at`.
+#[inline(never)]
+fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, depth: u32, queue: &mut Queue) {
+    let lift = L::load(&surfaces.lift[at..]);
+    let hit = lift.ge(L::zero());
+    let geometric = surfaces.geometric_normal::<L>(scene, at);
+    let bodies = &surfaces.bodies;
+    let Split { mirror, reflected, transmitted, refracted } = split(
+        Vec3::load(&wave.rays.direction, at),
+        Vec3::load(&surfaces.normal, at),
+        geometric,
+        L::load(&bodies.eta[at..]),
+        [L::load(&surfaces.mirror[at..]), L::load(&bodies.transmission[at..])],
+        L::load(&bodies.additive[at..]).gt(L::zero()),
+    );
+    let tint = Vec3::<L>::load(&bodies.tint, at);
+    let strongest = if scene.plan.absorbs { tint.max_abs() } else { L::splat(1.0) };
+    let counts = |weight: L| hit & (weight * strongest).ge(L::splat(LEAST_WEIGHT));
+    let point = Vec3::load(&surfaces.point, at);
+    let (goes_on, pixel) = (counts(mirror), &wave.pixel[at..]);
+    if goes_on.any() {
+        let (origin, inside) = (geometric.mul_add(lift, point), &wave.inside[at..]);
+        let leaving = Leaving { origin, direction: reflected, weight: mirror, tint, inside, pixel };
+        queue.append::<L>(&scene.plan, depth, Kind::Reflection, &leaving, goes_on);
+    }
+    let goes_on = counts(transmitted);
+    if goes_on.any() {
+        let (origin, inside) = (geometric.mul_add(-lift, point), &bodies.inside[at..]);
+        let leaving = Leaving { origin, direction: refracted, weight: transmitted, tint, inside, pixel };
+        queue.append::<L>(&scene.plan, depth, Kind::Refraction, &leaving, goes_on);
+    }
+}
+
+/// What is left of the tints of packet `at` after a way without an end.
+#[inline(never)]
+fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
+    let mut absorption = [[0.0; 8]; 3];
+    for lane in 0..L::WIDTH {
+        let sigma = scene.bodies[usize::from(wave.inside[at + lane].body())].absorption;
+        (0..3).for_each(|axis| absorption[axis][lane] = sigma[axis]);
+    }
+    absorbed(Vec3::load(&wave.tint, at), Vec3::load(&absorption, 0), L::splat(0.5 * f32::MAX))
+}
+
 /// Adds a packet's radiance to its pixels; `in_order` says that ray i belongs to pixel i.
 #[inline(always)]
 fn deposit<L: Lanes>(
+    scene: &Scene,
     wave: &Wave,
     at: usize,
     rgb: Vec3<L>,
@@ -177,9 +279,11 @@ fn deposit<L: Lanes>(
         (old + rgb).select(mask, old).store(radiance, at);
         return;
     }
-    // Packing keeps the order, so a packet whose ends are a width apart is a run of pixels.
+    // Packing keeps the order, so a packet whose ends are a width apart is a run of pixels; but where two kinds of rays
+    // go on, a wave may hold those of several others, one after another.
     let first = usize::from(wave.pixel[at]);
-    if mask.all() && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1 {
+    let run = !scene.plan.refracts && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1;
+    if mask.all() && run {
         (Vec3::load(radiance, first) + rgb).store(radiance, first);
         return;
     }

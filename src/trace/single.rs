@@ -27,7 +27,12 @@ pub struct Probe {
 impl Probe {
     /// Nearest hit of one ray in (0, ∞); `direction` has unit length.
     pub fn intersect(&mut self, scene: &Scene, origin: Vec3, direction: Vec3) -> Option<Hit> {
-        self.aim(origin, direction, f32::INFINITY);
+        self.beyond(scene, origin, direction, 0.0)
+    }
+
+    /// Nearest hit in (`t_min`, ∞).
+    pub fn beyond(&mut self, scene: &Scene, origin: Vec3, direction: Vec3, t_min: f32) -> Option<Hit> {
+        self.aim(origin, direction, t_min, f32::INFINITY);
         // Eight wide for the sake of the candidates; the answer is the same at every width.
         intersect::<f32x8>(scene, &self.rays, &mut self.hits, &mut self.candidates);
         let hit = Hit { t: self.hits.t[0], primitive: self.hits.primitive[0] };
@@ -36,16 +41,16 @@ impl Probe {
 
     /// Whether anything lies in (0, t_max) along one ray; `direction` has unit length.
     pub fn occluded(&mut self, scene: &Scene, origin: Vec3, direction: Vec3, t_max: f32) -> bool {
-        self.aim(origin, direction, t_max);
+        self.aim(origin, direction, 0.0, t_max);
         self.blocked = Blocked::default();
         occluded::<f32x8>(scene, &self.rays, &mut self.blocked, &mut self.candidates);
         self.blocked.get(0, 1) != 0
     }
 
-    fn aim(&mut self, origin: Vec3, direction: Vec3, t_max: f32) {
+    fn aim(&mut self, origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) {
         self.rays.clear();
         self.hits.primitive[0] = NONE;
-        self.rays.push(origin, direction, 0.0, t_max);
+        self.rays.push(origin, direction, t_min, t_max);
     }
 }
 

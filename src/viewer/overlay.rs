@@ -14,15 +14,15 @@ const MESSAGE: u32 = 0xFF_D0_60;
 pub struct Rates {
     /// Finished frames a second.
     pub frames: f64,
-    /// Million rays a second while the 3D view is traced: primary, shadow, reflection.
-    pub mrays: [f64; 3],
+    /// Million rays a second while the 3D view is traced: primary, shadow, reflection, refraction.
+    pub mrays: [f64; 4],
 }
 
 /// Adds frames up into [`Rates`].
 #[derive(Clone, Debug, Default)]
 pub struct Meter {
     frames: u32,
-    rays: [u64; 3],
+    rays: [u64; 4],
     tracing: Duration,
     elapsed: Duration,
     shown: Option<Rates>,
@@ -53,8 +53,8 @@ impl Meter {
     }
 }
 
-fn by_kind(counts: &Counts) -> [u64; 3] {
-    [counts.primary, counts.shadow, counts.reflection]
+fn by_kind(counts: &Counts) -> [u64; 4] {
+    [counts.primary, counts.shadow, counts.reflection, counts.refraction]
 }
 
 /// What the overlay shows.
@@ -85,7 +85,9 @@ impl Overlay<'_> {
             n => format!("  {n} threads"),
         };
         let mut lines = vec![format!("{}  {}{threads}", self.scene, self.kernel.name())];
-        let kinds = ["primary", "shadow", "reflection"];
+        // A scene without glass has no line for it.
+        let kinds = &["primary", "shadow", "reflection", "refraction"];
+        let kinds = &kinds[..if self.counts.is_some_and(|c| c.refraction > 0) { 4 } else { 3 }];
         match (self.counts, self.rates) {
             (None, _) => lines.push("tracing the first frame".to_owned()),
             (Some(counts), None) => {
@@ -126,7 +128,7 @@ fn figure(value: f64) -> String {
 mod tests {
     use super::*;
 
-    const COUNTS: Counts = Counts { primary: 2_000_000, shadow: 1_000_000, reflection: 0 };
+    const COUNTS: Counts = Counts { primary: 2_000_000, shadow: 1_000_000, reflection: 0, refraction: 0 };
 
     #[test]
     fn the_meter_averages() {
@@ -156,12 +158,14 @@ mod tests {
         assert_eq!(Overlay { threads: 0, ..overlay.clone() }.lines()[0], "classic  x8");
         overlay.counts = Some(COUNTS);
         assert_eq!(overlay.lines()[1], "primary      2000000 rays");
-        overlay.rates = Some(Rates { frames: 123.4, mrays: [45.67, 8.901, 0.0] });
+        overlay.rates = Some(Rates { frames: 123.4, mrays: [45.67, 8.901, 0.0, 0.0] });
         let lines = overlay.lines();
         assert_eq!(
             lines[1..],
             ["123 frames/s", "primary      45.7 Mrays/s", "shadow       8.90 Mrays/s", "reflection   0.00 Mrays/s"]
         );
+        overlay.counts = Some(Counts { refraction: 1, ..COUNTS });
+        assert_eq!(overlay.lines()[5], "refraction   0.00 Mrays/s");
     }
 
     #[test]

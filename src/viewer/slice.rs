@@ -19,11 +19,17 @@ const EYE: u32 = 0xFF_60_60;
 const PRIMARY: u32 = 0xB0_A0_58;
 const HIT: u32 = 0xFF_FF_FF;
 const REFLECTION: u32 = 0x38_A8_D8;
+const REFRACTION: u32 = 0xC0_60_D0;
 const SHADOW: u32 = 0x34_68_2C;
 const BLOCKED: u32 = 0x68_2C_34;
 const LIGHT: u32 = 0xFF_E8_80;
-const LEGEND: [(u32, &str); 4] =
-    [(PRIMARY, "primary"), (REFLECTION, "reflection"), (SHADOW, "shadow"), (BLOCKED, "blocked")];
+const LEGEND: [(u32, &str); 5] = [
+    (PRIMARY, "primary"),
+    (REFLECTION, "reflection"),
+    (REFRACTION, "refraction"),
+    (SHADOW, "shadow"),
+    (BLOCKED, "blocked"),
+];
 
 /// What a horizontal plane cuts out of a primitive, in (x, z).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,6 +123,7 @@ fn draw_paths(picture: &mut Picture, layout: &Layout, paths: &[Segment]) {
         (SegmentKind::Shadow { blocked: true }, BLOCKED),
         (SegmentKind::Shadow { blocked: false }, SHADOW),
         (SegmentKind::Primary, PRIMARY),
+        (SegmentKind::Refraction, REFRACTION),
         (SegmentKind::Reflection, REFLECTION),
     ];
     for (kind, color) in order {

@@ -1,0 +1,83 @@
+//! The waves that are still to be traced.
+
+use super::wave::{Leaving, Wave};
+use crate::math::{BATCH, LaneMask, Lanes};
+use crate::scene::Plan;
+
+/// How a ray left the surface before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Mirrored.
+    Reflection,
+    /// Through it.
+    Refraction,
+}
+
+/// Waves by depth and kind.
+///
+/// The deepest that is full goes first; when none is full, the shallowest. So every depth holds at most a few waves,
+/// however many rays there will be, and they are as full as can be. The order depends on numbers of rays alone, and is
+/// the same for all widths.
+#[derive(Debug, Default)]
+pub struct Queue {
+    /// From depth 2 on.
+    levels: Vec<[Line; 2]>,
+    free: Vec<Box<Wave>>,
+    waiting: usize,
+}
+
+/// What it holds matters only while a tile is traced, so that a copy starts out empty.
+impl Clone for Queue {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// Waves of one depth and kind; all but the last are full.
+type Line = std::collections::VecDeque<Box<Wave>>;
+
+impl Queue {
+    /// Takes the next wave, with its depth and kind.
+    #[inline(always)]
+    pub fn take(&mut self) -> Option<(Box<Wave>, u32, Kind)> {
+        if self.waiting == 0 {
+            return None;
+        }
+        let full = |line: &Line| line.front().is_some_and(|wave| wave.rays.len == BATCH);
+        let deepest = self.levels.iter().rposition(|lines| lines.iter().any(full));
+        let level = deepest.or_else(|| self.levels.iter().position(|lines| lines.iter().any(|l| !l.is_empty())))?;
+        let [reflected, refracted] = &mut self.levels[level];
+        let first = if deepest.is_some() { full(reflected) } else { !reflected.is_empty() };
+        let (line, kind) = if first { (reflected, Kind::Reflection) } else { (refracted, Kind::Refraction) };
+        let wave = line.pop_front()?;
+        self.waiting -= 1;
+        Some((wave, level as u32 + 2, kind))
+    }
+
+    /// Takes a wave back that is done.
+    #[inline(always)]
+    pub fn give_back(&mut self, wave: Box<Wave>) {
+        self.free.push(wave);
+    }
+
+    /// Adds the lanes of a packet where `mask` is true to the waves of `depth`, which is 2 or more.
+    #[inline(always)]
+    pub fn append<L: Lanes>(&mut self, plan: &Plan, depth: u32, kind: Kind, leaving: &Leaving<L>, mask: L::Mask) {
+        let level = depth as usize - 2;
+        if self.levels.len() <= level {
+            self.levels.resize_with(level + 1, Default::default);
+        }
+        let line = &mut self.levels[level][kind as usize];
+        let mut left = mask.bits();
+        while left != 0 {
+            if line.back().is_none_or(|wave| wave.rays.len == BATCH) {
+                let mut wave = self.free.pop().unwrap_or_default();
+                wave.rays.clear();
+                line.push_back(wave);
+                self.waiting += 1;
+            }
+            let Some(wave) = line.back_mut() else { return };
+            left = wave.append::<L>(plan, leaving, L::Mask::from_bits(left));
+        }
+    }
+}
