@@ -10,13 +10,12 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec3, Vec3, vec3};
-use raypacket::geometry::Nearest;
-use raypacket::geometry::plane::{self, SeenPlane};
 use raypacket::geometry::sphere::{self, SeenSphere};
-use raypacket::geometry::triangle::{self, SeenTriangle};
+use raypacket::geometry::triangle::{self, SeenEdges};
+use raypacket::geometry::{Nearest, Planes, Primitives, Quads, Spheres, Triangles};
 use raypacket::math::{BATCH, Lanes, RayBatch, Vec3 as Lane3};
 use raypacket::reference::Tracer;
-use raypacket::scene::{Description, Scene};
+use raypacket::scene::{self, Description, Scene};
 use scenes::{Pcg, ROUNDOFF, compiled, empty, mesh};
 use wide::{f32x4, f32x8};
 
@@ -28,90 +27,123 @@ trait Test {
     type Seen;
     /// All primitives, as the origin sees them.
     fn seen(scene: &Scene, origin: Vec3) -> Vec<Self::Seen>;
-    fn test<L: Lanes>(seen: &Self::Seen, direction: Lane3<L>, t_min: L, t_max: L) -> Nearest<L>;
+    /// What a packet needs once for all of them.
+    type Aim<L: Lanes>;
+    fn aim<L: Lanes>(direction: Lane3<L>) -> Self::Aim<L>;
+    fn test<L: Lanes>(seen: &Self::Seen, aim: &Self::Aim<L>, t_min: L, t_max: L) -> Nearest<L>;
     fn scene(rng: &mut Pcg) -> Description;
     /// The largest error of t that the method may have in that scene, seen from the origin.
     const TOLERANCE: f64;
 }
 
-struct Quadratic;
-struct Geometric;
-struct Stable;
-struct Plane;
-struct MollerTrumbore;
+/// A kind's default method.
+macro_rules! default_test {
+    ($type:ident, $name:literal, $field:ident: $kind:ty, $tolerance:expr, $rng:ident => $make:expr) => {
+        struct $type;
+        impl Test for $type {
+            const NAME: &'static str = $name;
+            type Seen = <$kind as Primitives>::Seen<f32>;
+            type Aim<L: Lanes> = <$kind as Primitives>::Aim<L>;
+            const TOLERANCE: f64 = $tolerance;
+            fn seen(scene: &Scene, origin: Vec3) -> Vec<Self::Seen> {
+                (0..PRIMITIVES).map(|i| <$kind>::seen(&scene.$field.record(i), origin.into())).collect()
+            }
+            #[inline(always)]
+            fn aim<L: Lanes>(direction: Lane3<L>) -> Self::Aim<L> {
+                <$kind>::aim(direction)
+            }
+            #[inline(always)]
+            fn test<L: Lanes>(seen: &Self::Seen, aim: &Self::Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
+                <$kind>::nearest::<L, false>(&<$kind>::splat(seen), aim, t_min, t_max)
+            }
+            fn scene($rng: &mut Pcg) -> Description {
+                let mut scene = empty();
+                for _ in 0..PRIMITIVES {
+                    $make(&mut scene, $rng);
+                }
+                scene
+            }
+        }
+    };
+}
 
+/// A sphere's other methods.
 macro_rules! sphere_test {
     ($type:ident, $method:ident) => {
+        struct $type;
         impl Test for $type {
             const NAME: &'static str = concat!("sphere/", stringify!($method));
             type Seen = SeenSphere<f32>;
-            // The discriminant is off by 8 ε |f|² at the most, with |f| < 8; its root, next to the outline, by the
-            // root of that: 0.0056.
-            const TOLERANCE: f64 = 0.0056;
+            type Aim<L: Lanes> = Lane3<L>;
+            const TOLERANCE: f64 = Stable::TOLERANCE;
             fn seen(scene: &Scene, origin: Vec3) -> Vec<Self::Seen> {
-                (0..PRIMITIVES).map(|i| scene.spheres.seen(i, origin.into())).collect()
+                Stable::seen(scene, origin)
             }
             #[inline(always)]
-            fn test<L: Lanes>(seen: &Self::Seen, direction: Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
-                sphere::$method(&seen.splat(), direction, t_min, t_max)
+            fn aim<L: Lanes>(direction: Lane3<L>) -> Lane3<L> {
+                direction
+            }
+            #[inline(always)]
+            fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
+                sphere::$method(&Spheres::splat(seen), *aim, t_min, t_max)
             }
             fn scene(rng: &mut Pcg) -> Description {
-                let mut scene = empty();
-                scene.spheres = (0..PRIMITIVES).map(|_| scenes::sphere(ahead(rng), rng.range(0.2, 0.9))).collect();
-                scene
+                Stable::scene(rng)
             }
         }
     };
 }
 sphere_test!(Quadratic, quadratic);
 sphere_test!(Geometric, geometric);
-sphere_test!(Stable, stable);
 
-impl Test for Plane {
-    const NAME: &'static str = "plane";
-    type Seen = SeenPlane<f32>;
-    // t < 16, off by 4 ε of it for the height, and by 4 ε / (n·d) for the slope, which is above 0.4.
-    const TOLERANCE: f64 = 16.0 * ROUNDOFF * (4.0 + 4.0 / 0.4);
-    fn seen(scene: &Scene, origin: Vec3) -> Vec<Self::Seen> {
-        (0..PRIMITIVES).map(|i| scene.planes.seen(i, origin.into())).collect()
-    }
-    #[inline(always)]
-    fn test<L: Lanes>(seen: &Self::Seen, direction: Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        plane::nearest(&seen.splat(), direction, t_min, t_max)
-    }
-    fn scene(rng: &mut Pcg) -> Description {
-        let mut scene = empty();
-        let normal = |rng: &mut Pcg| vec3(rng.range(-0.3, 0.3), rng.range(-0.3, 0.3), 1.0);
-        scene.planes = (0..PRIMITIVES).map(|_| scenes::plane(normal(rng), rng.range(3.0, 6.0))).collect();
-        scene
-    }
-}
+// The discriminant is off by 8 ε |f|² at the most, with |f| < 8; its root, next to the outline, by the root of that:
+// 0.0056.
+default_test!(Stable, "sphere/stable", spheres: Spheres, 0.0056, rng => |scene: &mut Description, rng: &mut Pcg| {
+    scene.spheres.push(scenes::sphere(ahead(rng), rng.range(0.2, 0.9)));
+});
+
+// t < 16, off by 4 ε of it for the height, and by 4 ε / (n·d) for the slope, which is above 0.4.
+default_test!(Plane, "plane", planes: Planes, 16.0 * ROUNDOFF * (4.0 + 4.0 / 0.4), rng => |scene: &mut Description, rng: &mut Pcg| {
+    let normal = vec3(rng.range(-0.3, 0.3), rng.range(-0.3, 0.3), 1.0);
+    scene.planes.push(scenes::plane(normal, rng.range(3.0, 6.0)));
+});
+
+// 8 ε (|o − a| + edge) / sin of the smallest angle, by the cosine of the incidence: below 8 ε · 12 / (0.2 · 0.2).
+default_test!(Watertight, "triangle/watertight", triangles: Triangles, 8.0 * ROUNDOFF * 12.0 / 0.04, rng => |scene: &mut Description, rng: &mut Pcg| {
+    // Close to equilateral, and turned towards the origin more or less.
+    let around = [vec3(0.0, 1.0, 0.0), vec3(0.87, -0.5, 0.0), vec3(-0.87, -0.5, 0.0)];
+    let center = ahead(rng);
+    scene.meshes.push(mesh(&[around.map(|corner| center + corner + 0.3 * rng.cube())]));
+});
+
+struct MollerTrumbore;
 
 impl Test for MollerTrumbore {
     const NAME: &'static str = "triangle/moller_trumbore";
-    type Seen = SeenTriangle<f32>;
-    // 8 ε (|T| + edge) / sin of the smallest angle, by the cosine of the incidence: below 8 ε · 12 / (0.2 · 0.2).
-    const TOLERANCE: f64 = 8.0 * ROUNDOFF * 12.0 / 0.04;
+    type Seen = SeenEdges<f32>;
+    type Aim<L: Lanes> = Lane3<L>;
+    const TOLERANCE: f64 = Watertight::TOLERANCE;
     fn seen(scene: &Scene, origin: Vec3) -> Vec<Self::Seen> {
-        (0..PRIMITIVES).map(|i| scene.triangles.seen(i, origin.into())).collect()
+        (0..PRIMITIVES).map(|i| SeenEdges::new(&scene.triangles.record(i), origin.into())).collect()
     }
     #[inline(always)]
-    fn test<L: Lanes>(seen: &Self::Seen, direction: Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        triangle::moller_trumbore(&seen.splat(), direction, t_min, t_max)
+    fn aim<L: Lanes>(direction: Lane3<L>) -> Lane3<L> {
+        direction
+    }
+    #[inline(always)]
+    fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
+        triangle::moller_trumbore(&seen.splat(), *aim, t_min, t_max)
     }
     fn scene(rng: &mut Pcg) -> Description {
-        let mut scene = empty();
-        // Close to equilateral, and turned towards the origin more or less.
-        let around = [vec3(0.0, 1.0, 0.0), vec3(0.87, -0.5, 0.0), vec3(-0.87, -0.5, 0.0)];
-        let corners = |rng: &mut Pcg| {
-            let center = ahead(rng);
-            around.map(|corner| center + corner + 0.3 * rng.cube())
-        };
-        let all: Vec<_> = (0..PRIMITIVES).map(|_| corners(rng)).collect();
-        scene.meshes.push(mesh(&all));
-        scene
+        Watertight::scene(rng)
     }
 }
+
+// As for triangles.
+default_test!(Quad, "quad", quads: Quads, Watertight::TOLERANCE, rng => |scene: &mut Description, rng: &mut Pcg| {
+    let [u, v] = [Vec3::X, Vec3::Y].map(|e| e + 0.3 * rng.cube());
+    scene.quads.push(scene::Quad { corner: ahead(rng), u, v, material: 0 });
+});
 
 /// 4 to 7 before the origin, along −z.
 fn ahead(rng: &mut Pcg) -> Vec3 {
@@ -121,10 +153,10 @@ fn ahead(rng: &mut Pcg) -> Vec3 {
 /// The nearest distance of every ray, infinite for a miss.
 fn nearest<L: Lanes, T: Test>(primitives: &[T::Seen], rays: &RayBatch, to: &mut [f32; BATCH]) {
     for at in (0..BATCH).step_by(L::WIDTH) {
-        let direction = Lane3::load(&rays.direction, at);
+        let aim = T::aim(Lane3::load(&rays.direction, at));
         let mut t = L::splat(f32::INFINITY);
         for seen in primitives {
-            if let Some((found, inside)) = T::test::<L>(seen, direction, L::zero(), t) {
+            if let Some((found, inside)) = T::test::<L>(seen, &aim, L::zero(), t) {
                 t = found.select(inside, t);
             }
         }
@@ -180,6 +212,8 @@ fn kernels(criterion: &mut Criterion) {
     method::<Stable>(criterion);
     method::<Plane>(criterion);
     method::<MollerTrumbore>(criterion);
+    method::<Watertight>(criterion);
+    method::<Quad>(criterion);
 }
 
 criterion_group! { name = benches; config = common::short(); targets = kernels }

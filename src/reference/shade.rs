@@ -78,7 +78,11 @@ impl Tracer {
     /// The same, as it looks with more rounding.
     pub fn radiance_rounded(&self, origin: DVec3, direction: DVec3, rounding: &Rounding) -> DVec3 {
         let inside = self.around(origin);
-        self.radiance_along(origin, direction, Way { rounding, depth: 1, weight: 1.0, tint: DVec3::ONE, inside: &inside })
+        self.radiance_along(
+            origin,
+            direction,
+            Way { rounding, depth: 1, weight: 1.0, tint: DVec3::ONE, inside: &inside },
+        )
     }
 
     fn radiance_along(&self, origin: DVec3, direction: DVec3, way: Way<'_>) -> DVec3 {

@@ -173,12 +173,17 @@ impl fmt::Display for Plan {
         )?;
         match (self.waves, self.mirrors, self.glasses) {
             (_, 0, 0) => writeln!(f, "waves       1: nothing reflects")?,
-            (waves, n, 0) => writeln!(f, "waves       {waves}: {n} of {} materials reflect; max_depth", self.materials)?,
+            (waves, n, 0) => {
+                writeln!(f, "waves       {waves}: {n} of {} materials reflect; max_depth", self.materials)?
+            }
             (waves, n, k) => {
                 let materials = self.materials;
                 writeln!(f, "waves       {waves}: of {materials} materials {n} reflect and {k} transmit; max_depth")?;
                 let by = if self.absorbs { "absorption by channel" } else { "none absorbs" };
-                writeln!(f, "bodies      a ray keeps those it is in; {by}; what counts for less than 2^-14 is dropped")?;
+                writeln!(
+                    f,
+                    "bodies      a ray keeps those it is in; {by}; what counts for less than 2^-14 is dropped"
+                )?;
             }
         }
         if self.smooth {

@@ -140,7 +140,10 @@ mod tests {
                 }
                 let d = glam::vec3(sine, -cosine, 0.0);
                 let t = glam::Vec3::from(bend::<f32>(d.into(), glam::Vec3::Y.into(), eta, cosine, f.cosine));
-                assert!((t.x - eta * sine).abs() < 1e-6 && t.y < 0.0 && (t.length() - 1.0).abs() < 1e-6, "{eta} {sine}");
+                assert!(
+                    (t.x - eta * sine).abs() < 1e-6 && t.y < 0.0 && (t.length() - 1.0).abs() < 1e-6,
+                    "{eta} {sine}"
+                );
             }
         }
     }

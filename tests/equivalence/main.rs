@@ -137,6 +137,16 @@ fn mixed() {
 }
 
 #[test]
+fn bodies() {
+    run(scenes::Kind::Bodies);
+}
+
+#[test]
+fn one_sided() {
+    run(scenes::Kind::OneSided);
+}
+
+#[test]
 fn nothing() {
     run(scenes::Kind::Empty);
 }
@@ -151,7 +161,7 @@ fn coincident_primitives_go_to_the_lowest_id() {
 fn culling_beside_outlines() {
     let mut scratch = Candidates::default();
     let directions = rays::Directions::OneSided;
-    for (kind, seed) in [scenes::Kind::Planes, scenes::Kind::Spheres, scenes::Kind::Triangles]
+    for (kind, seed) in [scenes::Kind::Planes, scenes::Kind::Spheres, scenes::Kind::Triangles, scenes::Kind::Bodies]
         .into_iter()
         .flat_map(|kind| (0..600).map(move |seed| (kind, seed)))
     {

@@ -1,7 +1,7 @@
 //! The answer for one ray: every primitive in turn, by the library's scalar tests, nothing left out.
 
 use glam::Vec3;
-use raypacket::geometry::{plane, sphere, triangle};
+use raypacket::geometry::Primitives;
 use raypacket::math::RayBatch;
 use raypacket::scene::Scene;
 use raypacket::trace::NONE;
@@ -54,24 +54,36 @@ impl Answer {
 
 /// Distance and id of an active ray's nearest hit.
 fn nearest(scene: &Scene, ray: &Ray) -> (f32, u32) {
-    let Ray { origin, direction, t_min, t_max } = *ray;
-    let (o, d) = (origin.into(), direction.into());
-    let mut best = (t_max, NONE);
-    let mut take = |hit: Option<(f32, bool)>, id: usize| {
-        // Only a strictly nearer hit replaces one that is there, so the lowest id keeps a tie.
-        if let Some((t, true)) = hit.filter(|(t, _)| *t < best.0) {
-            best = (t, id as u32);
+    let mut best = Best { ray, t: ray.t_max, id: NONE };
+    best.among(&scene.planes, 0);
+    best.among(&scene.spheres, scene.first.spheres);
+    best.among(&scene.triangles, scene.first.triangles);
+    best.among(&scene.quads, scene.first.quads);
+    best.among(&scene.cuboids, scene.first.cuboids);
+    best.among(&scene.cylinders, scene.first.cylinders);
+    best.among(&scene.cones, scene.first.cones);
+    best.among(&scene.tori, scene.first.tori);
+    best.among(&scene.fractals, scene.first.fractals);
+    if best.id == NONE { (f32::INFINITY, NONE) } else { (best.t, best.id) }
+}
+
+struct Best<'a> {
+    ray: &'a Ray,
+    t: f32,
+    id: u32,
+}
+
+impl Best<'_> {
+    /// Tries all primitives of a kind.
+    fn among<K: Primitives>(&mut self, kind: &K, first: u32) {
+        let (origin, aim) = (self.ray.origin.into(), K::aim::<f32>(self.ray.direction.into()));
+        for i in 0..kind.len() {
+            let seen = K::seen(&kind.record(i), origin);
+            // Only a strictly nearer hit replaces one that is there, so the lowest id keeps a tie.
+            let hit = K::nearest::<f32, true>(&seen, &aim, self.ray.t_min, self.t);
+            if let Some((t, true)) = hit.filter(|(t, _)| *t < self.t) {
+                (self.t, self.id) = (t, first + i as u32);
+            }
         }
-    };
-    let [planes, spheres] = [scene.planes.len(), scene.spheres.len()];
-    for i in 0..planes {
-        take(plane::nearest::<f32>(&scene.planes.seen(i, o), d, t_min, t_max), i);
     }
-    for i in 0..spheres {
-        take(sphere::stable::<f32>(&scene.spheres.seen(i, o), d, t_min, t_max), planes + i);
-    }
-    for i in 0..scene.triangles.len() {
-        take(triangle::moller_trumbore::<f32>(&scene.triangles.seen(i, o), d, t_min, t_max), planes + spheres + i);
-    }
-    if best.1 == NONE { (f32::INFINITY, NONE) } else { best }
 }

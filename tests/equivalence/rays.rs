@@ -1,6 +1,7 @@
 //! The rays of the matrix: batches that are easy, hard, or partly broken.
 
 use glam::{Vec3, vec3};
+use raypacket::geometry::{Bounded, Primitives};
 use raypacket::math::BATCH;
 use raypacket::scene::Scene;
 use raypacket::trace::{NONE, RayBatch};
@@ -167,7 +168,7 @@ impl Bundle {
 }
 
 fn any_primitive(scene: &Scene, rng: &mut Pcg) -> Option<u32> {
-    let count = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
+    let count = scene.first.fractals as usize + scene.fractals.len();
     (count > 0).then(|| rng.below(count) as u32)
 }
 
@@ -184,12 +185,19 @@ fn start(scene: &Scene, place: Place, rng: &mut Pcg) -> Vec3 {
 
 /// A point on primitive `id`, but for rounding.
 fn on(scene: &Scene, id: u32, place: Place, rng: &mut Pcg) -> Vec3 {
-    if id >= scene.first_triangle() {
-        let [a, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
+    let first = &scene.first;
+    if id >= first.quads {
+        let (center, radius) = ball(scene, id);
+        let from = center + rng.unit() * (radius * 2.0);
+        let to = center + rng.unit() * (radius * rng.pick(&[0.0, 0.5, 0.9]));
+        let direction = (to - from).normalize_or(Vec3::X);
+        distance(scene, id, from, direction).map_or(to, |t| from + direction * t)
+    } else if id >= first.triangles {
+        let [a, e1, e2] = scene.triangles.corner_and_edges((id - first.triangles) as usize);
         rng.pick(&[a, a + e1, a + e1 * 0.25 + e2 * 0.5])
-    } else if id >= scene.first_sphere() {
-        let i = (id - scene.first_sphere()) as usize;
-        scene.spheres.center(i) + rng.unit() * scene.spheres.radius[i]
+    } else if id >= first.spheres {
+        let i = (id - first.spheres) as usize;
+        scene.spheres.center(i) + rng.unit() * scene.spheres.radius(i)
     } else {
         let (n, p) = (scene.planes.normal(id as usize), place.point(rng));
         p - n * ((n.dot(p) + scene.planes.distance[id as usize]) / n.length_squared())
@@ -198,8 +206,21 @@ fn on(scene: &Scene, id: u32, place: Place, rng: &mut Pcg) -> Vec3 {
 
 /// A way from `origin` to the outline of primitive `id`, or along it, and a unit vector across the outline there.
 fn outline(scene: &Scene, id: u32, origin: Vec3, axis: Vec3, rng: &mut Pcg) -> [Vec3; 2] {
-    if id >= scene.first_triangle() {
-        let [a, e1, e2] = scene.triangles.corner_and_edges((id - scene.first_triangle()) as usize);
+    let first = &scene.first;
+    if id >= first.quads {
+        let (center, radius) = ball(scene, id);
+        let to = center - origin;
+        let aside = to.cross(axis).normalize_or(Vec3::Y);
+        // Between a way through the primitive, if this is one, and one past it.
+        let (mut met, mut past) = (to, to + aside * (radius * 1.5));
+        for _ in 0..40 {
+            let middle = (met + past) * 0.5;
+            let hit = distance(scene, id, origin, middle.normalize_or(axis)).is_some();
+            (met, past) = if hit { (middle, past) } else { (met, middle) };
+        }
+        [rng.pick(&[met, past]), aside]
+    } else if id >= first.triangles {
+        let [a, e1, e2] = scene.triangles.corner_and_edges((id - first.triangles) as usize);
         let normal = e1.cross(e2);
         if rng.chance(0.3) {
             return [axis.cross(normal), normal.normalize_or_zero()];
@@ -208,9 +229,9 @@ fn outline(scene: &Scene, id: u32, origin: Vec3, axis: Vec3, rng: &mut Pcg) -> [
         let (corner, edge) = rng.pick(&[(a, e1), (a, e2), (a + e1, e2 - e1)]);
         let way = corner + edge * along - origin;
         [way, way.cross(edge).normalize_or_zero()]
-    } else if id >= scene.first_sphere() {
-        let i = (id - scene.first_sphere()) as usize;
-        let (to, radius) = (scene.spheres.center(i) - origin, scene.spheres.radius[i]);
+    } else if id >= first.spheres {
+        let i = (id - first.spheres) as usize;
+        let (to, radius) = (scene.spheres.center(i) - origin, scene.spheres.radius(i));
         let sine = radius / to.length();
         let aside = to.cross(axis).normalize_or_zero();
         let way = if sine < 1.0 { to * (1.0 - sine * sine).sqrt() + aside * (sine * to.length()) } else { aside };
@@ -219,6 +240,42 @@ fn outline(scene: &Scene, id: u32, origin: Vec3, axis: Vec3, rng: &mut Pcg) -> [
         let normal = scene.planes.normal(id as usize);
         [axis.cross(normal), normal.normalize()]
     }
+}
+
+/// Evaluates an expression for a bounded primitive other than spheres and triangles.
+macro_rules! with_body {
+    ($scene:expr, $id:expr, |$kind:ident, $i:ident| $body:expr) => {{
+        let (scene, id): (&Scene, u32) = ($scene, $id);
+        let first = &scene.first;
+        macro_rules! on {
+            ($field:ident) => {{
+                let ($kind, $i) = (&scene.$field, (id - first.$field) as usize);
+                $body
+            }};
+        }
+        match id {
+            id if id >= first.fractals => on!(fractals),
+            id if id >= first.tori => on!(tori),
+            id if id >= first.cones => on!(cones),
+            id if id >= first.cylinders => on!(cylinders),
+            id if id >= first.cuboids => on!(cuboids),
+            _ => on!(quads),
+        }
+    }};
+}
+
+/// The ball around it.
+fn ball(scene: &Scene, id: u32) -> (Vec3, f32) {
+    with_body!(scene, id, |kind, i| (kind.balls().center(i), kind.balls().radius[i]))
+}
+
+/// Where a ray meets it, by its own test.
+fn distance(scene: &Scene, id: u32, origin: Vec3, direction: Vec3) -> Option<f32> {
+    fn nearest<K: Primitives>(kind: &K, i: usize, origin: Vec3, direction: Vec3) -> Option<f32> {
+        let seen = K::seen(&kind.record(i), origin.into());
+        K::nearest::<f32, true>(&seen, &K::aim(direction.into()), 0.0, f32::INFINITY).map(|(t, _)| t)
+    }
+    with_body!(scene, id, |kind, i| nearest(kind, i, origin, direction))
 }
 
 /// Makes a component of ray `i` NaN or infinite.

@@ -1,7 +1,7 @@
 //! The scenes of the matrix.
 
 use glam::{Vec3, vec3};
-use raypacket::scene::Description;
+use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Quad, Sides, Torus};
 
 use crate::common::{Pcg, empty, mesh, plane, sphere};
 
@@ -13,6 +13,10 @@ pub enum Kind {
     Triangles,
     Mixed,
     Empty,
+    /// Quads, boxes, cylinders, cones, tori and fractals.
+    Bodies,
+    /// Spheres, triangles, cylinders and cones, most of them only seen from one side.
+    OneSided,
     /// Everything twice over, so that every hit is a tie.
     Coincident,
 }
@@ -26,6 +30,8 @@ impl Kind {
             Kind::Triangles => [0, 0, 45],
             Kind::Mixed => [3, 29, 30],
             Kind::Empty => [0; 3],
+            Kind::Bodies => [1, 0, 0],
+            Kind::OneSided => [0, 12, 15],
             Kind::Coincident => [3, 13, 11],
         }
     }
@@ -72,12 +78,57 @@ pub fn scene(kind: Kind, place: Place, rng: &mut Pcg) -> Description {
     if triangles > 0 {
         scene.meshes.push(mesh(&corners));
     }
+    if matches!(kind, Kind::Bodies | Kind::OneSided) {
+        bodies(&mut scene, place, rng);
+    }
+    if kind == Kind::OneSided {
+        scene.quads.clear();
+        scene.cuboids.clear();
+        scene.tori.clear();
+        scene.fractals.clear();
+        let mut sides = || rng.pick(&[Sides::Both, Sides::Front, Sides::Back]);
+        scene.spheres.iter_mut().for_each(|s| s.sides = sides());
+        scene.cylinders.iter_mut().for_each(|c| c.sides = sides());
+        scene.cones.iter_mut().for_each(|c| c.sides = sides());
+        scene.meshes.extend(scene.meshes.clone());
+        (scene.meshes[0].sides, scene.meshes[1].sides) = (Sides::Front, Sides::Back);
+    }
     if kind == Kind::Coincident {
         scene.planes.extend(scene.planes.clone());
         scene.spheres.extend(scene.spheres.clone());
         scene.meshes.extend(scene.meshes.clone());
     }
     scene
+}
+
+/// A few of every kind of body.
+fn bodies(scene: &mut Description, place: Place, rng: &mut Pcg) {
+    let size = |rng: &mut Pcg| place.scale * rng.pick(&[0.05, 0.2, 0.5]) * rng.range(0.5, 1.0);
+    for i in 0..7 {
+        let p = place.point(rng);
+        let (u, v) = (rng.unit() * size(rng), rng.unit() * size(rng));
+        scene.quads.push(Quad { corner: p, u, v, material: 0 });
+        let p = place.point(rng);
+        let half = vec3(size(rng), size(rng), size(rng));
+        let rotation = if i % 2 == 0 { Vec3::ZERO } else { rng.cube() * 180.0 };
+        scene.cuboids.push(Cuboid { min: p - half, max: p + half, rotation, material: 0 });
+        let base = place.point(rng);
+        let along = if i % 3 == 0 { rng.pick(&Vec3::AXES) } else { rng.unit() };
+        let apex = base + along * size(rng);
+        let (radius, caps, sides) = (size(rng), rng.chance(0.5), Sides::Both);
+        scene.cylinders.push(Cylinder { base, apex, radius, caps, sides, material: 0 });
+        let base = place.point(rng);
+        let apex = base + along * size(rng);
+        let (base_radius, apex_radius) = (size(rng), rng.pick(&[0.0, 0.02, 1.2]) * size(rng));
+        if base_radius != apex_radius {
+            scene.cones.push(Cone { base, base_radius, apex, apex_radius, caps: rng.chance(0.5), sides, material: 0 });
+        }
+        let major_radius = size(rng);
+        let minor_radius = major_radius * rng.pick(&[0.05, 0.3, 1.0]);
+        scene.tori.push(Torus { center: place.point(rng), axis: along, major_radius, minor_radius, material: 0 });
+        let iterations = rng.below(4) as u32;
+        scene.fractals.push(Fractal { center: place.point(rng), radius: size(rng), iterations, material: 0 });
+    }
 }
 
 /// Small and large, slivers, some in an axis plane; a few without area.

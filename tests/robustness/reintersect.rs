@@ -1,6 +1,7 @@
 //! Rays that leave a surface do not meet it again where they start, whatever its size and place: no acne.
 
 use glam::{DVec3, Vec3, vec3};
+use raypacket::geometry::Primitives;
 use raypacket::scene::{Description, Scene};
 use raypacket::shade::{Segment, SegmentKind, path};
 
@@ -64,7 +65,7 @@ impl Lone {
         if self.scene.spheres.is_empty() {
             return true;
         }
-        let (center, radius) = (self.scene.spheres.center(0).as_dvec3(), f64::from(self.scene.spheres.radius[0]));
+        let (center, radius) = (self.scene.spheres.center(0).as_dvec3(), f64::from(self.scene.spheres.radius(0)));
         let (f, d) = (eye.as_dvec3() - center, direction.as_dvec3().normalize());
         let sine = (f - d * f.dot(d)).length() / radius;
         let size = center.abs().max_element() + radius;

@@ -1,7 +1,7 @@
 //! The textbook's fixed epsilon of 1e-4 fails where things are large (acne) or small (leaks); ours holds there.
 
 use glam::{Vec3, vec3};
-use raypacket::geometry::{plane as planes, sphere as spheres};
+use raypacket::geometry::Primitives;
 use raypacket::scene::Scene;
 use raypacket::shade::{Segment, SegmentKind, path};
 
@@ -13,10 +13,15 @@ const EPSILON: f32 = 1e-4;
 
 /// Whether anything of a scene of planes and spheres lies in the interval, nearest first.
 fn nearest(scene: &Scene, origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> Option<f32> {
-    let (o, d) = (origin.into(), direction.into());
-    let flat = (0..scene.planes.len()).map(|i| planes::nearest::<f32>(&scene.planes.seen(i, o), d, t_min, t_max));
-    let round = (0..scene.spheres.len()).map(|i| spheres::stable::<f32>(&scene.spheres.seen(i, o), d, t_min, t_max));
-    flat.chain(round).flatten().map(|(t, _)| t).min_by(f32::total_cmp)
+    let flat = among(&scene.planes, origin, direction, t_min, t_max);
+    let round = among(&scene.spheres, origin, direction, t_min, t_max);
+    flat.into_iter().chain(round).min_by(f32::total_cmp)
+}
+
+fn among<K: Primitives>(kind: &K, origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> Option<f32> {
+    let aim = K::aim::<f32>(direction.into());
+    let nearest = |i| K::nearest::<f32, false>(&K::seen(&kind.record(i), origin.into()), &aim, t_min, t_max);
+    (0..kind.len()).filter_map(nearest).map(|(t, _)| t).min_by(f32::total_cmp)
 }
 
 /// Whether the textbook says that the light is hidden from where an eye ray hits.
