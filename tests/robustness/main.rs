@@ -10,6 +10,7 @@ mod reintersect;
 mod sizes;
 mod symmetry;
 mod textbook;
+mod watertight;
 
 use common::Pcg;
 use glam::Vec3;
