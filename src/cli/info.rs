@@ -2,7 +2,7 @@
 
 use super::args::DEFAULT_SCENE;
 use super::{Failure, input, print};
-use raypacket::scene::{Description, Plan, one_line};
+use raypacket::scene::{Description, Plan, Sky, one_line};
 use std::fmt;
 
 #[derive(clap::Args)]
@@ -24,22 +24,16 @@ struct Summary<'a>(&'a Description, &'a Plan);
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(scene, plan) = self;
-        let triangles: usize = scene.meshes.iter().map(|m| m.triangles.len()).sum();
         let (camera, settings) = (&scene.camera, &scene.settings);
         let fall_off = if settings.attenuation { "power / (4 pi r^2)" } else { "power at any distance" };
         writeln!(f, "scene       {}", one_line(&scene.name))?;
-        writeln!(
-            f,
-            "primitives  {}: {}, {}, {} in {}",
-            scene.primitives(),
-            count(scene.planes.len(), "plane"),
-            count(scene.spheres.len(), "sphere"),
-            count(triangles, "triangle"),
-            if scene.meshes.len() == 1 { "1 mesh".into() } else { format!("{} meshes", scene.meshes.len()) },
-        )?;
+        writeln!(f, "primitives  {}", list(scene.primitives(), &kinds(scene)))?;
         writeln!(f, "lights      {}, irradiance = {fall_off}", scene.lights.len())?;
         let materials: Vec<String> = scene.materials.iter().map(|m| one_line(&m.name)).collect();
-        writeln!(f, "materials   {}: {}", materials.len(), materials.join(", "))?;
+        writeln!(f, "materials   {}", list(materials.len(), &materials))?;
+        let textures: Vec<String> = scene.textures.iter().map(|t| format!("{} x {}", t.width, t.height)).collect();
+        writeln!(f, "textures    {}", list(textures.len(), &textures))?;
+        writeln!(f, "sky         {}", sky(&scene.sky))?;
         writeln!(f, "max depth   {}", settings.max_depth)?;
         writeln!(
             f,
@@ -53,6 +47,38 @@ impl fmt::Display for Summary<'_> {
     }
 }
 
-fn count(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+/// The numbers of primitives by kind, of those that there are.
+fn kinds(scene: &Description) -> Vec<String> {
+    let triangles = scene.meshes.iter().map(|m| m.triangles.len()).sum();
+    let counts = [
+        (scene.planes.len(), "plane", "planes"),
+        (scene.spheres.len(), "sphere", "spheres"),
+        (triangles, "triangle", "triangles"),
+        (scene.quads.len(), "quad", "quads"),
+        (scene.cuboids.len(), "box", "boxes"),
+        (scene.cylinders.len(), "cylinder", "cylinders"),
+        (scene.cones.len(), "cone", "cones"),
+        (scene.tori.len(), "torus", "tori"),
+        (scene.fractals.len(), "fractal", "fractals"),
+    ];
+    let count = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+    let kind = |(n, one, many): (usize, &str, &str)| match one {
+        _ if n == 0 => None,
+        "triangle" => Some(format!("{} in {}", count(n, one, many), count(scene.meshes.len(), "mesh", "meshes"))),
+        _ => Some(count(n, one, many)),
+    };
+    counts.into_iter().filter_map(kind).collect()
+}
+
+fn sky(sky: &Sky) -> String {
+    match sky {
+        Sky::Color(color) => format!("color {color}"),
+        Sky::Gradient { below, above } => format!("gradient from {below} below to {above} above"),
+        Sky::Dome(dome) => format!("image {} x {}, turned {} degrees", dome.width, dome.height, dome.rotation),
+    }
+}
+
+/// How many, and what.
+fn list(n: usize, items: &[String]) -> String {
+    if items.is_empty() { n.to_string() } else { format!("{n}: {}", items.join(", ")) }
 }

@@ -2,8 +2,9 @@
 //!
 //! x runs to the right and z down, so that a camera looking along −z looks up the pane.
 
+use super::cut::{cuboid_corners, quad_corners};
 use crate::scene::Description;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3, Vec3Swizzles};
 
 /// Things further from the eye than this many times its distance to look_at do not count for the scale.
 const NEARBY: f64 = 4.0;
@@ -21,7 +22,8 @@ pub struct Map {
 /// A map laid on a pane.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
-    center: DVec2,
+    /// The point (x, z) of the world in the pane's middle.
+    pub center: DVec2,
     middle: DVec2,
     /// Pixels a world unit.
     pub scale: f64,
@@ -34,7 +36,7 @@ pub fn flat(point: Vec3) -> DVec2 {
 }
 
 impl Map {
-    /// A map of the scene's surroundings: the eye, what it looks at, and the lights, spheres and meshes nearby.
+    /// A map of the scene's surroundings: the eye, what it looks at, and the lights and primitives nearby.
     /// Planes have no end and do not count; neither does what is huge or far, or nothing would be left of the rest.
     pub fn new(description: &Description) -> Self {
         let (eye, look_at) = (description.camera.eye, description.camera.look_at);
@@ -51,17 +53,7 @@ impl Map {
         for light in &description.lights {
             include(flat(light.position), flat(light.position));
         }
-        for sphere in &description.spheres {
-            let (center, radius) = (flat(sphere.center), DVec2::splat(f64::from(sphere.radius)));
-            include(center - radius, center + radius);
-        }
-        for mesh in &description.meshes {
-            let corners = mesh.positions.iter().copied().map(flat);
-            let bounds = corners.map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)));
-            if let Some((low, high)) = bounds {
-                include(low, high);
-            }
-        }
+        bodies(description).for_each(|(from, to)| include(from, to));
         // When everything is in one line of sight from above, its length has to do for the width too.
         let half = (high - low) / 2.0;
         let least = half.max_element().max(distance * 0.25);
@@ -84,10 +76,48 @@ impl Map {
     }
 }
 
+/// The least and greatest (x, z) of all but the planes; a mesh is one.
+fn bodies(description: &Description) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+    let around = |center: DVec2, spread: DVec2| (center - spread, center + spread);
+    let spheres = description.spheres.iter().map(move |s| around(flat(s.center), DVec2::splat(s.radius.into())));
+    let meshes = description.meshes.iter().filter_map(|mesh| bounds(mesh.positions.iter().copied().map(flat)));
+    let quads = description.quads.iter().filter_map(|quad| bounds(quad_corners(quad).map(|p| p.xz())));
+    let cuboids = description.cuboids.iter().filter_map(|cuboid| bounds(cuboid_corners(cuboid).map(|p| p.xz())));
+    let cylinders = description.cylinders.iter().map(|c| [(c.base, c.radius), (c.apex, c.radius)]);
+    let cones = description.cones.iter().map(|c| [(c.base, c.base_radius), (c.apex, c.apex_radius)]);
+    let sides = cylinders.chain(cones).filter_map(move |[(base, start), (apex, end)]| {
+        let spread = disc(apex.as_dvec3() - base.as_dvec3());
+        let ends = [around(flat(base), spread * f64::from(start)), around(flat(apex), spread * f64::from(end))];
+        bounds(ends.into_iter().flat_map(|(low, high)| [low, high]))
+    });
+    let tori = description.tori.iter().map(move |torus| {
+        let spread = disc(torus.axis.as_dvec3()) * f64::from(torus.major_radius);
+        around(flat(torus.center), spread + f64::from(torus.minor_radius))
+    });
+    let fractals = description.fractals.iter().map(move |f| around(flat(f.center), DVec2::splat(f.radius.into())));
+    spheres.chain(meshes).chain(quads).chain(cuboids).chain(sides).chain(tori).chain(fractals)
+}
+
+/// None of nothing.
+fn bounds(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
+    points.into_iter().map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
+}
+
+/// How far a circle of radius 1 about an axis spreads along x and z.
+fn disc(axis: DVec3) -> DVec2 {
+    let axis = axis.normalize();
+    DVec2::new(axis.yz().length(), axis.xy().length())
+}
+
 impl Layout {
     /// Where a point (x, z) of the world lies on the pane, in pixels.
     pub fn place(&self, point: DVec2) -> DVec2 {
         (point - self.center) * self.scale + self.middle
+    }
+
+    /// How far from the middle anything on the pane is, in world units.
+    pub fn reach(&self) -> f64 {
+        self.middle.length() / self.scale
     }
 
     /// The longest of 1, 2, 5, 10 … world units that takes at most `pixels` on the pane.

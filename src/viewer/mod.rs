@@ -13,6 +13,7 @@
 //! `window` is plain functions on state and pictures, and tested as such.
 
 mod controls;
+mod cut;
 mod draw;
 mod frame;
 mod input;
@@ -22,6 +23,7 @@ mod screenshot;
 mod session;
 mod slice;
 mod text;
+mod turned;
 mod window;
 
 use crate::files::FileError;

@@ -2,16 +2,17 @@
 //! the screen's middle row, projected onto it.
 
 use super::{
+    cut::{Cut, Section, cuts},
     draw::Picture,
     map::{Layout, flat},
     text,
 };
 use crate::{
     render::Camera,
-    scene::{Description, Plane, Sphere},
+    scene::Description,
     shade::{Segment, SegmentKind},
 };
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, Vec3};
 
 const BACKGROUND: u32 = 0x12_14_18;
 const OUTLINE: u32 = 0xD8_DC_E4;
@@ -31,84 +32,18 @@ const LEGEND: [(u32, &str); 5] = [
     (BLOCKED, "blocked"),
 ];
 
-/// What a horizontal plane cuts out of a primitive, in (x, z).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cut {
-    /// Out of a sphere.
-    Circle {
-        /// Its middle.
-        center: DVec2,
-        /// Not negative.
-        radius: f64,
-    },
-    /// Out of a plane: an endless line.
-    Line {
-        /// One of its points.
-        point: DVec2,
-        /// Of any length but zero.
-        direction: DVec2,
-    },
-    /// Out of a triangle.
-    Segment(DVec2, DVec2),
-}
-
-/// Everything that the plane y = `height` cuts.
-pub fn cuts(description: &Description, height: f32) -> impl Iterator<Item = Cut> + '_ {
-    let y = f64::from(height);
-    let planes = description.planes.iter().filter_map(move |plane| cut_plane(plane, y));
-    let spheres = description.spheres.iter().filter_map(move |sphere| cut_sphere(sphere, y));
-    let triangles = description.meshes.iter().flat_map(move |mesh| {
-        mesh.triangles.iter().filter_map(move |triangle| {
-            let corner = |i: usize| mesh.positions.get(triangle[i] as usize).map(|p| p.as_dvec3());
-            cut_triangle([corner(0)?, corner(1)?, corner(2)?], y)
-        })
-    });
-    planes.chain(spheres).chain(triangles)
-}
-
-/// None when the plane is parallel to the slice.
-fn cut_plane(plane: &Plane, y: f64) -> Option<Cut> {
-    let normal = plane.normal.as_dvec3();
-    let across = flat(plane.normal);
-    let (length, offset) = (across.length_squared(), f64::from(plane.distance) + normal.y * y);
-    // A nearly parallel plane is cut far away, where clipping leaves it out.
-    (length > 0.0).then(|| Cut::Line { point: across * (-offset / length), direction: across.perp() })
-}
-
-fn cut_sphere(sphere: &Sphere, y: f64) -> Option<Cut> {
-    let (radius, above) = (f64::from(sphere.radius), (f64::from(sphere.center.y) - y).abs());
-    let squared = (radius - above) * (radius + above);
-    (above <= radius).then(|| Cut::Circle { center: flat(sphere.center), radius: squared.max(0.0).sqrt() })
-}
-
-/// A corner on the slice counts as above it, so that neighbours agree on a shared edge and corner, and a triangle
-/// that lies in the slice is not cut.
-fn cut_triangle(corners: [DVec3; 3], y: f64) -> Option<Cut> {
-    let above = corners.map(|corner| corner.y >= y);
-    // The corner that is alone on its side: both edges that leave it cross the slice.
-    let alone = (0..3).find(|&i| above[i] != above[(i + 1) % 3] && above[i] != above[(i + 2) % 3])?;
-    let crossing = |other: DVec3| {
-        let from = corners[alone];
-        let point = from.lerp(other, (y - from.y) / (other.y - from.y));
-        DVec2::new(point.x, point.z)
-    };
-    Some(Cut::Segment(crossing(corners[(alone + 1) % 3]), crossing(corners[(alone + 2) % 3])))
-}
-
 /// Draws the whole slice: light paths, outlines, lights, the eye and its screen, a scale bar and a legend.
 pub fn draw(picture: &mut Picture, layout: &Layout, description: &Description, camera: &Camera, paths: &[Segment]) {
     picture.fill(BACKGROUND);
     draw_paths(picture, layout, paths);
-    for cut in cuts(description, camera.eye.y) {
-        match cut {
-            Cut::Circle { center, radius } => picture.circle(layout.place(center), radius * layout.scale, OUTLINE),
-            Cut::Segment(from, to) => picture.segment(layout.place(from), layout.place(to), OUTLINE),
-            Cut::Line { point, direction } => {
-                let direction = direction.normalize_or_zero();
-                picture.line(layout.place(point), direction, (f64::NEG_INFINITY, f64::INFINITY), OUTLINE);
-            }
+    cuts(description, &Section::new(layout, camera.eye.y), |cut| match cut {
+        Cut::Circle { center, radius } => picture.circle(layout.place(center), radius * layout.scale, OUTLINE),
+        Cut::Segment(from, to) => picture.segment(layout.place(from), layout.place(to), OUTLINE),
+        Cut::Line { point, direction } => {
+            let direction = direction.normalize_or_zero();
+            picture.line(layout.place(point), direction, (f64::NEG_INFINITY, f64::INFINITY), OUTLINE);
         }
-    }
+    });
     for light in &description.lights {
         picture.dot(layout.place(flat(light.position)), 2, LIGHT);
     }
@@ -192,53 +127,12 @@ fn length_text(length: f64) -> String {
 mod tests {
     use super::*;
     use crate::{
-        scene::{Mesh, Sides},
+        scene::{Plane, Sides, Sphere},
         viewer::map::Map,
     };
 
     fn sphere(y: f32, radius: f32) -> Sphere {
         Sphere { center: Vec3::new(2.0, y, 3.0), radius, sides: Sides::Both, material: 0 }
-    }
-
-    #[test]
-    fn spheres_give_circles() {
-        let center = DVec2::new(2.0, 3.0);
-        assert_eq!(cut_sphere(&sphere(1.0, 2.0), 1.0), Some(Cut::Circle { center, radius: 2.0 }));
-        assert_eq!(cut_sphere(&sphere(4.0, 5.0), 1.0), Some(Cut::Circle { center, radius: 4.0 }));
-        assert_eq!(cut_sphere(&sphere(3.0, 2.0), 1.0), Some(Cut::Circle { center, radius: 0.0 }));
-        assert_eq!(cut_sphere(&sphere(3.1, 2.0), 1.0), None);
-    }
-
-    #[test]
-    fn planes_give_lines_unless_parallel() {
-        let plane = |normal: Vec3, distance: f32| Plane { normal, distance, material: 0 };
-        assert_eq!(cut_plane(&plane(Vec3::Y * 3.0, 1.0), 0.5), None);
-        // 2x + 2y − 6 = 0 at y = 1: x = 2, of any z.
-        let Some(Cut::Line { point, direction }) = cut_plane(&plane(Vec3::new(2.0, 2.0, 0.0), -6.0), 1.0) else {
-            panic!()
-        };
-        assert!(point.distance(DVec2::new(2.0, 0.0)) < 1e-12 && direction.x == 0.0 && direction.y != 0.0);
-    }
-
-    #[test]
-    fn triangles_give_segments() {
-        let corners = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(4.0, 2.0, 0.0), DVec3::new(0.0, 2.0, 8.0)];
-        let expected = [DVec2::new(2.0, 0.0), DVec2::new(0.0, 4.0)];
-        for turn in 0..3 {
-            let mut corners = corners;
-            corners.rotate_left(turn);
-            let Some(Cut::Segment(a, b)) = cut_triangle(corners, 1.0) else { panic!() };
-            assert!([a, b] == expected || [b, a] == expected);
-        }
-        assert_eq!(cut_triangle(corners, 2.5), None);
-        assert_eq!(cut_triangle(corners.map(|p| DVec3::new(p.x, 1.0, p.z)), 1.0), None, "parallel");
-    }
-
-    #[test]
-    fn a_mesh_with_a_bad_index_is_no_panic() {
-        let mesh = Mesh { positions: vec![Vec3::ZERO], triangles: vec![[0, 1, 2]], ..Mesh::default() };
-        let description = Description { meshes: vec![mesh], ..Description::default() };
-        assert_eq!(cuts(&description, 0.0).count(), 0);
     }
 
     fn drawn(paths: &[Segment], width: usize, height: usize) -> Picture {

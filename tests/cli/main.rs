@@ -99,7 +99,8 @@ fn scenes_lists_the_built_in_ones() {
 fn info_tells_what_a_scene_holds() {
     let folder = folder();
     let run = raypacket(folder.path(), "info good.toml").good();
-    for words in ["good", "2: 1 plane, 1 sphere, 0 triangles in 0 meshes", "1: red", "eye [0, 1, 5]", "\nplan\n  "] {
+    let primitives = "\nprimitives  2: 1 plane, 1 sphere\n";
+    for words in ["good", primitives, "1: red", "sky         color [0, 0, 0]\n", "eye [0, 1, 5]", "\nplan\n  "] {
         assert!(run.stdout.contains(words), "no {words:?} in {}", run.stdout);
     }
     assert!(raypacket(folder.path(), "info").good().stdout.contains("classic"));
