@@ -252,17 +252,20 @@ fn slid(shift: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
 /// additive material has a reflectance of 0 up to there.
 fn dielectric(direction: DVec3, point: &Point<'_>, eta: f64, additive: bool) -> (f64, Option<DVec3>) {
     let bent = |normal: DVec3| {
-        let c = -normal.dot(direction);
+        let c = (-normal.dot(direction)).max(0.0);
         let sine2 = eta * eta * (1.0 - c * c);
         (c, (sine2 < 1.0).then(|| (1.0 - sine2).sqrt()))
     };
+    // An interpolated normal that faces away from the ray counts as one across it.
     let (c, through) = bent(point.smooth);
     let Some(through) = through else { return (1.0, None) };
     let snell = |c: f64, through: f64, normal: DVec3| (eta * direction + (eta * c - through) * normal).normalize();
     let refracted = snell(c, through, point.smooth);
     let refracted = match bent(point.normal) {
-        (c, Some(through)) if refracted.dot(point.normal) >= 0.0 => snell(c, through, point.normal),
-        _ => refracted,
+        _ if refracted.dot(point.normal) < 0.0 => refracted,
+        // An interpolated normal that bends a ray back gives way to the surface's own.
+        (c, Some(through)) => snell(c, through, point.normal),
+        (_, None) => return (1.0, None),
     };
     if additive {
         return (0.0, Some(refracted));

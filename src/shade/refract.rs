@@ -66,15 +66,18 @@ pub fn split<L: Lanes>(
     [reflectance, transmission]: [L; 2],
     additive: L::Mask,
 ) -> Split<L> {
-    let cosine = (-normal.dot(direction)).max(L::zero()).min(L::splat(1.0));
+    // An interpolated normal that faces away from a ray counts as one across it.
+    let facing = |n: Vec3<L>| (-n.dot(direction)).max(L::zero()).min(L::splat(1.0));
+    let cosine = facing(normal);
     let Fresnel { reflectance: f, cosine: through, total } = fresnel(cosine, eta);
+    let refracted = bend(direction, normal, eta, cosine, through);
+    // And one that bends a ray back to where it came from gives way to the surface's own.
+    let below = refracted.dot(geometric).lt(L::zero());
+    let cosine = facing(geometric);
+    let own = fresnel(cosine, eta);
+    let refracted = refracted.select(below, bend(direction, geometric, eta, cosine, own.cosine));
+    let total = total | (own.total & !below);
     let f = L::splat(1.0).select(total, L::zero().select(additive, f));
-    let straight = bend(direction, normal, eta, cosine, through);
-    // An interpolated normal may bend a ray back to where it came from.
-    let refracted = straight.select(straight.dot(geometric).lt(L::zero()), {
-        let cosine = (-geometric.dot(direction)).max(L::zero()).min(L::splat(1.0));
-        bend(direction, geometric, eta, cosine, fresnel(cosine, eta).cosine)
-    });
     Split {
         mirror: transmission.mul_add(f, reflectance),
         reflected: spawn::mirror_above(direction, normal, geometric),
