@@ -306,11 +306,30 @@ fn tori_are_cut_where_they_are() {
 
 #[test]
 fn a_torus_about_to_part_is_drawn_sharply() {
-    // On its side: at the height R − m the outline crosses itself.
-    for y in [2.0, 1.9999, 2.0001, 1.99, 2.01, -2.0] {
-        let description = of_torus(Vec3::ZERO, Vec3::X, 3.0, 1.0);
-        let section = Section { y, ..SEEN };
-        check_outline(&description, &section, |p| torus_distance(&description.tori[0], p));
+    // With its axis lying or slanting: the slice touches the tube from inside at `height`, where the outline crosses
+    // itself. Nearer to the middle it passes by in two bends.
+    for axis in [Vec3::X, Vec3::new(1.0, 0.5, 0.2), Vec3::new(1.0, -2.0, 0.0)] {
+        let description = of_torus(Vec3::ZERO, axis, 3.0, 1.0);
+        let unit = axis.as_dvec3().normalize();
+        let (level, along) = (unit.xz().length(), unit.xz().normalize());
+        let height = level * 3.0 - 1.0;
+        for below in [0.0, -1e-4, 1e-4, -1e-3, 1e-3, -0.01, 0.01] {
+            let section = Section { y: height - below, ..SEEN };
+            let distance = |p: DVec3| torus_distance(&description.tori[0], p);
+            check_outline(&description, &section, distance);
+            if below > 0.0 {
+                let at = |w: f64| along * (-unit.y * 3.0) + along.perp() * w;
+                let inside = |w: f64| distance(DVec3::new(at(w).x, section.y, at(w).y)) < 0.0;
+                assert!(!inside(0.0) && inside(1.0));
+                let halve = |(low, high): (f64, f64), _| {
+                    let middle = (low + high) / 2.0;
+                    if inside(middle) { (low, middle) } else { (middle, high) }
+                };
+                let bend = at((0..50).fold((0.0, 1.0), halve).0);
+                let outline = segments(&description, &section);
+                assert!(outline.iter().any(|[from, to]| from.distance(bend).min(to.distance(bend)) < 1e-6));
+            }
+        }
     }
 }
 

@@ -131,7 +131,7 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{CameraDescription, Sides, Sphere};
+    use crate::scene::{CameraDescription, Cone, Cuboid, Cylinder, Fractal, Quad, Sides, Sphere, Torus};
 
     fn scene(spheres: &[(Vec3, f32)]) -> Description {
         let spheres = spheres
@@ -156,6 +156,37 @@ mod tests {
         }
         let far = [(Vec3::new(1e6, 0.0, 0.0), 1.0), (Vec3::ZERO, 1e6), (Vec3::NAN, 1.0)];
         assert_eq!(Map::new(&scene(&[&near[..], &far].concat())), map);
+    }
+
+    #[test]
+    fn every_body_counts_by_its_extent() {
+        let (base, apex, caps, sides, material) = (Vec3::X, Vec3::new(5.0, 3.0, 0.0), true, Sides::Both, 0);
+        let d = Description {
+            quads: vec![Quad { corner: base, u: Vec3::Y, v: -Vec3::Z * 3.0, material }],
+            cuboids: vec![Cuboid { min: -Vec3::ONE, max: Vec3::ONE, rotation: Vec3::Y * 45.0, material }],
+            cylinders: vec![Cylinder { base, apex, radius: 5.0, caps, sides, material }],
+            cones: vec![Cone { base, base_radius: 0.0, apex, apex_radius: 5.0, caps, sides, material }],
+            tori: vec![Torus { center: base, axis: Vec3::X * 3.0, major_radius: 2.0, minor_radius: 0.5, material }],
+            fractals: vec![Fractal { center: apex, radius: 2.0, iterations: 3, material }],
+            ..Description::default()
+        };
+        // The axis of length 5 rises by 3: its discs of radius 5 spread by 3 along x.
+        let expected = [
+            [1.0, -3.0, 1.0, 0.0],
+            [-(2f64.sqrt()), -(2f64.sqrt()), 2f64.sqrt(), 2f64.sqrt()],
+            [-2.0, -5.0, 8.0, 5.0],
+            [1.0, -5.0, 8.0, 5.0],
+            [0.5, -2.5, 1.5, 2.5],
+            [3.0, -2.0, 7.0, 2.0],
+        ];
+        let found: Vec<[f64; 4]> = bodies(&d).map(|(low, high)| [low.x, low.y, high.x, high.y]).collect();
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");
+        }
+        let reach = |map: &Map| (map.center - map.half, map.center + map.half);
+        let (low, high) = reach(&Map::new(&d));
+        assert!(low.x < -2.0 && low.y < -5.0 && high.x > 8.0 && high.y > 5.0);
     }
 
     #[test]

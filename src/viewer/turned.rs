@@ -157,11 +157,11 @@ pub fn torus_cuts(torus: &Torus, section: &Section, emit: &mut dyn FnMut(Cut)) {
     let mut ends = vec![low, high];
     ends.extend([-minor, minor].map(|axial| tilt.reaches(axial)));
     for side in [-major, major] {
-        // The tube's two circles in the vertical plane: where the line enters and leaves each, and where it is nearest
-        // to the middle, since an outline bends sharply there when it is about to part or to join.
+        // The tube's two circles in the vertical plane: where the line enters and leaves each. When it passes by, where
+        // it is nearest, since an outline that has just parted or is about to join bends sharply there.
         let (nearest, off) = (-tilt.steep * side, (tilt.rise - tilt.level * side).abs());
         let reach = ((minor - off) * (minor + off)).max(0.0).sqrt();
-        ends.extend([nearest - reach, nearest, nearest + reach]);
+        ends.extend([nearest - reach, nearest + reach]);
     }
     ends.retain(|t| (low..=high).contains(t));
     ends.sort_by(f64::total_cmp);
