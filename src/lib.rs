@@ -3,13 +3,13 @@
 //! # The way of a ray
 //!
 //! ```text
-//! TOML ──scene::parse──▶ Description ──scene::compile──▶ Scene: SoA arrays and a Plan
+//! TOML, NFF, OBJ ──read──▶ Description ──scene::compile──▶ Scene: SoA arrays and a Plan
 //!                             │                            │ a tile of 16 × 16 eye rays      render
 //!                             │                            ▼
 //!                             │                ┌──▶ intersect: the nearest hits              trace
 //!                             │                │    occluded: a shadow ray a hit and light   trace
 //!                             │     next wave  │           ▼
-//!                             │                └─── light, and the mirrors' rays, compacted  shade
+//!                             │                └─── light; mirrors' and glass's rays, compacted  shade
 //!                             │                            ▼
 //!                             │                          Film ──▶ window, PNG, EXR           render, viewer
 //!                             ▼
@@ -45,7 +45,7 @@
 //! - [`viewer`]: the window: 3D view, 2D slice, controls, overlay
 //! - [`measure`]: rays a second, and how right they are
 //! - [`render`]: camera, tiles, film, tone mapping, picture files
-//! - [`shade`]: lights, materials and mirrors, in waves
+//! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
 //! - [`trace`]: the two queries, over a compiled scene
 //! - [`scene`]: what the user wrote, its readers and rules, the built-in scenes, `compile`, the plan
 //! - [`geometry`]: a file a primitive: storage, tests, surface
@@ -60,7 +60,8 @@
 //! - **One kernel text for all widths**: generic over [`math::Lanes`]. In one build x1, x4 and x8 give the same bits,
 //!   in hits and pictures; so do any number of threads and any order of the tiles.
 //! - **The reference shares nothing but the description**, so that no fault of a kernel hides in its own check.
-//! - **At equal distance the lowest primitive id wins.** Ids count planes, then spheres, then triangles.
+//! - **At equal distance the lowest primitive id wins.** Ids count through the kinds in the order of
+//!   [`scene::Scene`]'s fields: planes, spheres, triangles, quads and so on.
 //! - **[`math::Lanes::mul_add`] is fused on every width or on none**: fused in a build with FMA instructions, two
 //!   roundings in a build without. So two builds may differ, each within the bounds that
 //!   [`measure::verify`] checks.

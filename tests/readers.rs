@@ -65,6 +65,131 @@ fn every_key_is_read() {
 }
 
 #[test]
+fn every_kind_of_primitive_is_read() {
+    let text = r#"
+        sky.gradient = [[1, 2, 3], [4, 5, 6]]
+        [materials.glass]
+        transmission = 0.75
+        ior = 1.25
+        absorption = [1, 2, 3]
+        [[triangle]]
+        vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        normals = [[0, 0, 1], [0, 1, 1], [1, 0, 1]]
+        uvs = [[0, 0.5], [1, 0], [2, 2]]
+        material = "glass"
+        [[quad]]
+        corner = [1, 2, 3]
+        u = [1, 0, 0]
+        v = [0, 0, 2]
+        [[box]]
+        min = [-1, -2, -3]
+        max = [1, 2, 3]
+        rotation = [10, 20, 30]
+        [[cylinder]]
+        base = [0, 1, 0]
+        apex = [0, 3, 0]
+        radius = 0.5
+        [[cone]]
+        base = [0, 0, 0]
+        base_radius = 2
+        apex = [0, 3, 0]
+        apex_radius = 0
+        caps = true
+        [[torus]]
+        center = [5, 0, 0]
+        axis = [0, 2, 0]
+        major_radius = 2
+        minor_radius = 0.5
+        [[fractal]]
+        center = [0, 0, 7]
+        radius = 1
+        iterations = 3
+    "#;
+    let d = parse(text).unwrap();
+    assert_eq!(d.sky, Sky::Gradient { below: Vec3::new(1.0, 2.0, 3.0), above: Vec3::new(4.0, 5.0, 6.0) });
+    let glass = &d.materials[0];
+    assert_eq!((glass.transmission, glass.ior, glass.absorption), (0.75, 1.25, Vec3::new(1.0, 2.0, 3.0)));
+    assert!(!glass.additive);
+    assert_eq!(d.meshes[0].normals[1], Vec3::new(0.0, 1.0, 1.0));
+    assert_eq!((d.meshes[0].uvs[0].y, d.meshes[0].material), (0.5, 0));
+    assert_eq!((d.quads[0].corner, d.quads[0].v), (Vec3::new(1.0, 2.0, 3.0), Vec3::Z * 2.0));
+    assert_eq!((d.cuboids[0].min, d.cuboids[0].rotation), (Vec3::new(-1.0, -2.0, -3.0), Vec3::new(10.0, 20.0, 30.0)));
+    assert_eq!((d.cylinders[0].apex, d.cylinders[0].radius, d.cylinders[0].caps), (Vec3::Y * 3.0, 0.5, false));
+    assert_eq!((d.cones[0].base_radius, d.cones[0].apex_radius, d.cones[0].caps), (2.0, 0.0, true));
+    assert_eq!((d.tori[0].axis, d.tori[0].major_radius, d.tori[0].minor_radius), (Vec3::Y * 2.0, 2.0, 0.5));
+    assert_eq!((d.fractals[0].center, d.fractals[0].radius, d.fractals[0].iterations), (Vec3::Z * 7.0, 1.0, 3));
+    assert_eq!((d.primitives(), d.materials.len()), (7, 2));
+}
+
+#[test]
+fn degenerate_primitives() {
+    fault(
+        "[[triangle]]\nvertices = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]",
+        "s.toml:2: triangle[0].vertices: must span an area",
+    );
+    fault("[[quad]]\ncorner = [0, 0, 0]\nu = [1, 0, 0]\nv = [2, 0, 0]", "s.toml:4: quad[0].v: must span an area");
+    fault("[[box]]\nmin = [0, 0, 0]\nmax = [1, 0, 1]", "s.toml:3: box[0].max: must exceed box[0].min, got [1, 0, 1]");
+    fault(
+        "[[box]]\nmin = [1e6, 0, 0]\nmax = [1000000.1, 1, 1]",
+        "s.toml:3: box[0].max: must exceed box[0].min, got [1000000.1, 1, 1]",
+    );
+    fault(
+        "[[cylinder]]\nbase = [1, 1, 1]\napex = [1, 1, 1]\nradius = 1",
+        "s.toml:3: cylinder[0].apex: must be at least 1e-12 away from base, is 0e0",
+    );
+    fault(
+        "[[cylinder]]\nbase = [0, 0, 0]\napex = [1, 1, 1]\nradius = 0",
+        "s.toml:4: cylinder[0].radius: must be above 0, got 0",
+    );
+    fault(
+        "[[cone]]\nbase = [0, 0, 0]\nbase_radius = 1\napex = [1, 1, 1]\napex_radius = 1",
+        "s.toml:5: cone[0].apex_radius: must differ from base_radius; that is a cylinder",
+    );
+    fault(
+        "[[cone]]\nbase = [0, 0, 0]\nbase_radius = nan\napex = [1, 1, 1]\napex_radius = 1",
+        "s.toml:3: cone[0].base_radius: must be 0, or 1e-12 to 1e12, got NaN",
+    );
+    fault(
+        "[[torus]]\ncenter = [0, 0, 0]\naxis = [0, 0, 0]\nmajor_radius = 2\nminor_radius = 1",
+        "s.toml:3: torus[0].axis: must not be zero",
+    );
+    fault(
+        "[[torus]]\ncenter = [0, 0, 0]\naxis = [0, 0, 1]\nmajor_radius = 2\nminor_radius = 3",
+        "s.toml:5: torus[0].minor_radius: must be at most major_radius, got 3",
+    );
+    fault(
+        "[[fractal]]\ncenter = [0, 0, 0]\nradius = 1\niterations = 9",
+        "s.toml:4: fractal[0].iterations: must be 0 to 8, got 9",
+    );
+}
+
+#[test]
+fn materials_and_skies_out_of_range() {
+    let material = |line: &str, problem: &str| {
+        let (key, _) = line.split_once(' ').unwrap();
+        fault(&format!("[materials.a]\n{line}"), &format!("s.toml:2: materials.a.{key}: {problem}"));
+    };
+    material("transmission = 1.5", "must be 0 to 1, got 1.5");
+    material("ior = 0", "must be 0.1 to 10, got 0");
+    material("absorption = [0, -1, 0]", "must be finite and 0 or more, got [0, -1, 0]");
+    material("texture_size = 2", "only goes with texture");
+    fault(
+        "[materials.a]\nreflectance = 0.5\ntransmission = 0.625",
+        "s.toml:3: materials.a.transmission: with reflectance at most 1, got 1.125",
+    );
+    fault(
+        "[materials.a]\ncolor = [1, 1, 1]\ntexture = \"x.png\"",
+        "s.toml:3: materials.a.texture: only one of color, checker and texture",
+    );
+    fault("[sky]\ncolor = [1, 1, 1]\nimage = \"x.hdr\"", "s.toml:3: sky.image: only one of color, gradient and image");
+    fault("[sky]\nrotation = 5", "s.toml:2: sky.rotation: only goes with image");
+    fault(
+        "sky.gradient = [[0, 0, 0], [0, 0, -1]]",
+        "s.toml:1: sky.gradient[1]: must be finite and 0 or more, got [0, 0, -1]",
+    );
+}
+
+#[test]
 fn a_file_may_define_the_default_material() {
     let d = parse("[materials.default]\ncolor = [1, 0, 0]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1").unwrap();
     assert_eq!((d.materials.len(), &d.materials[0].pigment), (1, &Pigment::Color(Vec3::X)));
@@ -104,7 +229,7 @@ fn syntax_faults() {
 fn unknown_keys() {
     fault(
         "colour = 3",
-        "s.toml:1: colour: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `mesh`",
+        "s.toml:1: colour: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `mesh`",
     );
     fault(
         "[camera]\nfov = 3\nzoom = 2",
@@ -115,12 +240,12 @@ fn unknown_keys() {
         "s.toml:7: sphere[1].rad: unknown key, expected one of `center`, `radius`, `material`",
     );
     fault(
-        "[[triangle]]\nvertices = []",
-        "s.toml:1: triangle: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `mesh`",
+        "[[disc]]\nvertices = []",
+        "s.toml:1: disc: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `mesh`",
     );
     fault(
-        "[materials.floor]\nior = 1",
-        "s.toml:2: materials.floor.ior: unknown key, expected one of `color`, `checker`, `reflectance`, `specular`, `shininess`",
+        "[materials.floor]\ndensity = 1",
+        "s.toml:2: materials.floor.density: unknown key, expected one of `color`, `checker`, `texture`, `texture_size`, `reflectance`, `transmission`, `ior`, `absorption`, `specular`, `shininess`",
     );
     fault(
         "[materials.floor.checker]\nior = 1",
@@ -128,9 +253,12 @@ fn unknown_keys() {
     );
     fault(
         "\"a\\nb\" = 1",
-        "s.toml:1: \"a\\nb\": unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `mesh`",
+        "s.toml:1: \"a\\nb\": unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `mesh`",
     );
-    fault("[sky]\nimage = \"x.hdr\"", "s.toml:2: sky.image: unknown key, expected `color`");
+    fault(
+        "[sky]\nstars = 5",
+        "s.toml:2: sky.stars: unknown key, expected one of `color`, `gradient`, `image`, `rotation`",
+    );
 }
 
 #[test]
