@@ -44,9 +44,6 @@ const ON: f32 = 8.0 * ROUNDOFF;
 /// is outside.
 const SLACK: f32 = 2.0 * ON;
 
-/// Where a step of the search ends it, in R: an ulp of the greatest s.
-const STEP: f32 = 4.0 * ROUNDOFF;
-
 /// Tori, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tori {
@@ -58,6 +55,8 @@ pub struct Tori {
     pub major: Vec<f32>,
     /// r, of the tube.
     pub minor: Vec<f32>,
+    /// How near to a root the search takes g for a parabola, in R, far from the axis.
+    pub near: Vec<f32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
     balls: Balls,
@@ -74,6 +73,8 @@ pub struct TorusRecord {
     pub major: f32,
     /// r / R.
     pub kappa: f32,
+    /// How near to a root the search takes g for a parabola, far from the axis.
+    pub near: f32,
 }
 
 /// What a torus's test needs of it and of the rays' origin.
@@ -87,6 +88,8 @@ pub struct SeenTorus<L> {
     pub major: f32,
     /// r / R.
     pub kappa: f32,
+    /// How near to a root the search takes g for a parabola, far from the axis.
+    pub near: f32,
 }
 
 impl Tori {
@@ -100,6 +103,9 @@ impl Tori {
         self.axes.push([t, t.cross(a), a].map(|v| v.as_vec3()));
         self.major.push(major);
         self.minor.push(minor);
+        // (ε κ)^⅓ / 4, and ρ times that near the axis: so the parabola is off g by (2 near)³ |g‴| / 6 ≤ ε κ / 8, as |g‴|
+        // is at most 6 / ρ².
+        self.near.push(0.25 * (ROUNDOFF * minor / major).cbrt());
         self.material.push(material);
         // The ball about the centre is smaller than the one around the box.
         self.balls.push(center, (major + minor) * (1.0 + 2.0 * f32::EPSILON));
@@ -158,16 +164,16 @@ impl Primitives for Tori {
     #[inline(always)]
     fn record(&self, i: usize) -> TorusRecord {
         let (major, minor) = (self.major[i], self.minor[i]);
-        TorusRecord { center: self.center(i).into(), axes: self.axes[i], major, kappa: minor / major }
+        TorusRecord { center: self.center(i).into(), axes: self.axes[i], major, kappa: minor / major, near: self.near[i] }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &TorusRecord, origin: Vec3<L>) -> SeenTorus<L> {
         let f = along(&r.axes, origin - Vec3::splat(r.center.into())) * L::splat(1.0 / r.major);
-        SeenTorus { f, axes: r.axes, major: r.major, kappa: r.kappa }
+        SeenTorus { f, axes: r.axes, major: r.major, kappa: r.kappa, near: r.near }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTorus<f32>) -> SeenTorus<L> {
-        SeenTorus { f: Vec3::splat(s.f.into()), axes: s.axes, major: s.major, kappa: s.kappa }
+        SeenTorus { f: Vec3::splat(s.f.into()), axes: s.axes, major: s.major, kappa: s.kappa, near: s.near }
     }
     #[inline(always)]
     fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
@@ -217,9 +223,8 @@ pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min:
     let q = d.mul_add(-b, seen.f);
     let [start, end] = [t_min, t_max].map(|t| t.mul_add(per_major, b));
     let span = Span::around(seen.kappa, q, d, [start, end])?;
-    let path = Path::new(q, d, &span);
-    let kappa2 = L::splat(seen.kappa * seen.kappa);
-    let at_first = path.sample(path.ends[0], kappa2);
+    let path = Path::new(q, d, &span, seen.kappa, seen.near);
+    let at_first = path.sample(path.ends[0]);
     // 2 κ times the distance from the surface.
     let on_level = L::splat(2.0 * seen.kappa * (1.0 + seen.kappa) * ON);
     let on = !span.entered & at_first.value.abs().le(on_level);
@@ -230,16 +235,17 @@ pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min:
     let inside = !span.entered & ((on & turned_in) | (!on & at_first.value.lt(L::zero())));
     let sign = L::splat(-1.0).select(inside, L::splat(1.0));
     let f = |u: L| {
-        let Sample { value, rise, run } = path.sample(u, kappa2);
-        Sample { value: value * sign, rise: rise * sign, run }
+        let Sample { value, rise, run, near } = path.sample(u);
+        Sample { value: value * sign, rise: rise * sign, run, near }
     };
+    let curvature = |u: L| path.curvature(u) * sign;
     let (mut u, mut found) = (low, low.lt(low));
     for (left, right, convex) in [(low, bend, !inside), (bend, unbend, inside), (unbend, high, !inside)] {
         // A ray that starts on the surface leaves it, by the choice of the sign, and hits nothing while g is convex.
         let leaves = on & convex & left.le(low);
         let live = span.live & !found & left.lt(right) & !leaves;
         if live.any() {
-            let (root, hit) = first_root(f, &Stretch { left, right, convex }, live, L::splat(STEP));
+            let (root, hit) = first_root(f, curvature, &Stretch { left, right, convex }, live);
             u = root.select(hit, u);
             found = found | hit;
         }
@@ -292,13 +298,17 @@ struct Path<L> {
     rho2: L,
     slope: L,
     across2: L,
+    /// j².
+    j2: L,
     z: L,
     dz: L,
+    kappa2: L,
+    near: L,
 }
 
 impl<L: Lanes> Path<L> {
     #[inline(always)]
-    fn new(q: Vec3<L>, d: Vec3<L>, span: &Span<L>) -> Self {
+    fn new(q: Vec3<L>, d: Vec3<L>, span: &Span<L>, kappa: f32, near: f32) -> Self {
         let zero = L::zero();
         let [low, high] = span.ends;
         let across2 = d.x.mul_add(d.x, d.y * d.y);
@@ -317,21 +327,36 @@ impl<L: Lanes> Path<L> {
         let reach = reach.max(L::splat(1e-12));
         let ends = [low - middle, high - middle];
         let inflections = [ends[0].max(-reach), ends[1].min(reach)];
-        Self { middle, ends, inflections, rho2, slope, across2, z: p.z, dz: d.z }
+        let [kappa2, near] = [kappa * kappa, near].map(L::splat);
+        Self { middle, ends, inflections, rho2, slope, across2, j2: j * j, z: p.z, dz: d.z, kappa2, near }
+    }
+
+    /// ρ; not zero, as it is divided by. So close to the axis there is no surface but a horn torus's centre.
+    #[inline(always)]
+    fn rho(&self, u: L) -> L {
+        u.mul_add(self.across2.mul_add(u, self.slope + self.slope), self.rho2).max(L::splat(1e-36)).sqrt()
+    }
+
+    /// g″ = 2 − 2 j² / ρ³.
+    #[inline(always)]
+    fn curvature(&self, u: L) -> L {
+        let rho = self.rho(u);
+        let ratio = self.j2 / (rho * rho * rho).max(L::splat(1e-36));
+        L::splat(2.0) - (ratio + ratio)
     }
 
     /// g and g′ = 2 ((ρ − 1) ρ ρ′ + ρ z z′) / ρ.
     #[inline(always)]
-    fn sample(&self, u: L, kappa2: L) -> Sample<L> {
+    fn sample(&self, u: L) -> Sample<L> {
         let climb = self.across2.mul_add(u, self.slope);
-        // Not zero, as it is divided by; so close to the axis there is no surface but a horn torus's centre.
-        let rho = u.mul_add(climb + self.slope, self.rho2).max(L::splat(1e-36)).sqrt();
+        let rho = self.rho(u);
         let aside = rho - L::splat(1.0);
         let z = self.dz.mul_add(u, self.z);
         Sample {
-            value: aside.mul_add(aside, z.mul_add(z, -kappa2)),
+            value: aside.mul_add(aside, z.mul_add(z, -self.kappa2)),
             rise: aside.mul_add(climb, rho * (z * self.dz)),
             run: rho * L::splat(0.5),
+            near: self.near * rho.min(L::splat(1.0)),
         }
     }
 }

@@ -18,6 +18,8 @@ pub struct Sample<L> {
     pub rise: L,
     /// Above zero.
     pub run: L,
+    /// How far from here f may be taken for a parabola.
+    pub near: L,
 }
 
 /// A stretch in which a function is convex or concave.
@@ -39,39 +41,62 @@ pub struct Stretch<L: Lanes> {
 /// root left as soon as it rises, or the tangent leaves the stretch, and what is found is the first root, double or
 /// not.
 ///
-/// Rounding: a root is where the computed value changes its sign, or the step is at most `tolerance`. Where the function
-/// touches zero the computed value decides. A lane's result does not depend on the other lanes.
+/// Once a step is at most [`Sample::near`], two more are to the root of the parabola with the function's value, slope
+/// and `curvature` there, or to none where that stays above zero. So one rounded value decides where or whether a
+/// function that nearly touches zero has its root, as with the discriminant of a quadratic. The root is off by the
+/// rounding of that value, and the parabola's error, up to |f‴| (2 near)³ / 6, over the slope. A lane's result does not
+/// depend on the other lanes.
 #[inline(always)]
 pub fn first_root<L: Lanes>(
     f: impl Fn(L) -> Sample<L>,
+    curvature: impl Fn(L) -> L,
     stretch: &Stretch<L>,
     live: L::Mask,
-    tolerance: L,
 ) -> (L, L::Mask) {
     let Stretch { left, right, convex } = *stretch;
     let zero = L::zero();
     let mut x = left.select(convex, right);
     let mut at = f(x);
     let below = live & at.value.le(zero);
-    let falling = at.rise.lt(zero);
-    // A concave function that does not fall where it ends below zero is zero there, but for rounding.
-    let mut found = below & (convex | !falling);
-    let mut active = live & falling & ((convex & at.value.gt(zero)) | (!convex & below));
+    // A convex function that is not above zero at the left end is zero there, but for rounding.
+    let mut found = below & convex;
+    let mut active = live & ((convex & at.value.gt(zero) & at.rise.lt(zero)) | (!convex & below));
     for _ in 0..MOST_STEPS {
+        let step = -(at.value * at.run) / at.rise;
+        // Rising at its right end a concave function is zero there, but for rounding.
+        let close = active & (step.abs().le(at.near) | at.rise.ge(zero));
+        found = found | close;
+        let next = (x + step).max(left);
+        active = active & !close & (!convex | next.lt(right));
         if !active.any() {
             break;
         }
-        let next = (x - at.value * at.run / at.rise).max(left);
-        active = active & (!convex | next.lt(right));
-        let near = (next - x).abs().le(tolerance);
         x = next.select(active, x);
         at = f(x);
-        let crossed = (convex & at.value.le(zero)) | (!convex & at.value.ge(zero));
-        let falling = at.rise.lt(zero);
-        found = found | (active & (crossed | near | !(convex | falling)));
-        active = active & falling & !found;
+        let crossed = active & ((convex & at.value.le(zero)) | (!convex & at.value.ge(zero)));
+        found = found | crossed;
+        active = active & !crossed & (!convex | at.rise.lt(zero));
     }
-    (x, found | active)
+    let live = found | active;
+    // Twice, as the first parabola may be touched as much as 2 near away, where its vertex is off by 2 near² f‴ / f″.
+    let (x, _) = to_parabola(x, &at, curvature(x), stretch);
+    let (x, touched) = to_parabola(x, &f(x), curvature(x), stretch);
+    (x, live & touched & x.le(right))
+}
+
+/// From `x` to the root of the parabola with the value, slope and curvature there, the first where it is convex; to its
+/// vertex, and false, where it has none.
+#[inline(always)]
+fn to_parabola<L: Lanes>(x: L, at: &Sample<L>, curvature: L, stretch: &Stretch<L>) -> (L, L::Mask) {
+    let zero = L::zero();
+    let slope = at.rise / at.run;
+    let discriminant = slope.mul_add(slope, at.value * curvature * L::splat(-2.0));
+    let root = discriminant.max(zero).sqrt();
+    let ahead = (at.value + at.value) / (root - slope);
+    // Beyond the vertex of a convex one; nothing to gain where a concave one has no slope.
+    let back = ((-(slope + root)) / curvature).max(-at.near).select(stretch.convex, zero);
+    let step = ahead.select(slope.lt(zero), back);
+    ((x + step).max(stretch.left), !stretch.convex | discriminant.ge(zero))
 }
 
 #[cfg(test)]
@@ -79,18 +104,17 @@ mod tests {
     use super::*;
     use wide::{f32x4, f32x8};
 
-    const TOLERANCE: f32 = 2.0 * f32::EPSILON;
-
     /// The first root of the quadratic a x² + b x + c between −1 and 1.
     fn quadratic<L: Lanes>(a: L, b: L, c: L) -> (L, L::Mask) {
         let f = |x: L| Sample {
             value: a.mul_add(x, b).mul_add(x, c),
             rise: (a + a).mul_add(x, b),
             run: L::splat(1.0),
+            near: L::splat(1e-3),
         };
         let one = L::splat(1.0);
         let stretch = Stretch { left: -one, right: one, convex: a.ge(L::zero()) };
-        first_root(f, &stretch, f(-one).value.gt(L::zero()), L::splat(TOLERANCE))
+        first_root(f, |_| a + a, &stretch, f(-one).value.gt(L::zero()))
     }
 
     fn root(a: f32, b: f32, c: f32) -> Option<f32> {
@@ -130,7 +154,7 @@ mod tests {
             n => n as f32 * 0.3 - 1.4,
         };
         let column = |k: usize| (0..64).map(|i| coefficient(i, k)).collect::<Vec<_>>();
-        let [a, b, c] = [column(0), column(1), column(2)];
+        let ([a, c], b) = ([column(0), column(2)], column(1).iter().map(|b| b - 1.0).collect::<Vec<_>>());
         fn bits<L: Lanes>(a: &[f32], b: &[f32], c: &[f32]) -> Vec<u32> {
             let mut out = Vec::new();
             for at in (0..a.len()).step_by(L::WIDTH) {
