@@ -6,6 +6,7 @@ mod batch;
 mod isa;
 mod lanes;
 mod power;
+pub mod roots;
 mod vec3;
 
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};

@@ -161,7 +161,7 @@ impl fmt::Display for Plan {
             ("boxes", "METHOD"),
             ("cylinders", "METHOD"),
             ("cones", "METHOD"),
-            ("tori", "METHOD"),
+            ("tori", "method `monotone_newton`, which loses no root, single or double, near or far"),
             ("fractals", "METHOD"),
         ];
         for ((kind, method), count) in methods.into_iter().zip(self.primitives).filter(|(_, count)| *count > 0) {
