@@ -7,12 +7,15 @@ mod balls;
 pub mod cone;
 pub mod cuboid;
 pub mod cylinder;
+mod face;
 pub mod fractal;
 mod frame;
 pub mod plane;
 pub mod quad;
 pub mod sphere;
 pub mod torus;
+#[cfg(test)]
+mod trial;
 pub mod triangle;
 
 pub use balls::Balls;
