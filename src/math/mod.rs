@@ -7,10 +7,12 @@ mod isa;
 mod lanes;
 mod power;
 pub mod roots;
+mod srgb;
 mod vec3;
 
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
 pub use lanes::{LaneMask, Lanes, MOST_LANES};
 pub use power::{exp2, powf};
+pub use srgb::linear_of_bytes;
 pub use vec3::Vec3;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{Description, ReadError, parse, read};
+use super::read::{Assets, parse_with};
+use super::{Description, ReadError, read};
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +49,10 @@ pub fn load(name_or_path: &str) -> Result<Description, ReadError> {
         Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
         None if path.is_file() => read(path),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {
-            Some(builtin) => parse(builtin.source, Path::new(&format!("scenes/{}.toml", builtin.name))),
+            Some(builtin) => {
+                let file = format!("scenes/{}.toml", builtin.name);
+                parse_with(builtin.source, Path::new(&file), &Assets::Builtin)
+            }
             None => {
                 Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") })
             }

@@ -1,9 +1,11 @@
 //! From a file to a [`Description`]; every fault is one line that names the file, the line and the key.
 
+mod assets;
 mod image;
 mod obj;
 mod place;
 mod polygon;
+mod radiance;
 mod strict;
 mod toml;
 
@@ -15,6 +17,8 @@ use std::{
 };
 
 use super::Description;
+pub(super) use assets::Assets;
+pub use image::{MAX_IMAGE_BYTES, MAX_IMAGE_PIXELS, MAX_IMAGE_SIDE};
 
 /// The largest scene file that is read. Parsing takes up to about a hundred times the file's size in memory.
 pub const MAX_TOML_BYTES: u64 = 16 << 20;
@@ -73,7 +77,7 @@ impl ReadError {
     }
 }
 
-/// Reads a scene file in TOML. Mesh files are looked for beside it.
+/// Reads a scene file in TOML. Meshes and images are looked for beside it.
 ///
 /// # Errors
 /// [`ReadError`] for a file that cannot be read or does not describe a sound scene.
@@ -88,12 +92,18 @@ pub fn read(path: &Path) -> Result<Description, ReadError> {
     }
 }
 
-/// Reads a scene from TOML text; `file` is named in messages, and mesh files are looked for beside it.
+/// Reads a scene from TOML text; `file` is named in messages, and meshes and images are looked for
+/// beside it.
 ///
 /// # Errors
 /// [`ReadError`] when the text does not describe a sound scene.
 pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
-    toml::parse(text, file)
+    parse_with(text, file, &Assets::beside(file))
+}
+
+/// The same, with the files that the scene names from elsewhere.
+pub(super) fn parse_with(text: &str, file: &Path, assets: &Assets) -> Result<Description, ReadError> {
+    toml::parse(text, file, assets)
 }
 
 /// The whole of a file that is no longer than `limit`.
@@ -112,7 +122,11 @@ fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
             return Ok(bytes);
         }
     }
-    Err(ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") })
+    Err(too_long(path, limit))
+}
+
+fn too_long(path: &Path, limit: u64) -> ReadError {
+    ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") }
 }
 
 /// The text with control characters escaped, and cut when it is very long: safe to show on a terminal.

@@ -8,19 +8,15 @@ use std::{fmt::Write, path::Path};
 
 use glam::Vec3;
 
-use super::{ReadError, bytes_of};
+use super::{ReadError, assets::Assets};
 use crate::scene::{Mesh, check};
 
 /// Reads the mesh of a file, with material 0: the faces in the order of the file, polygons as fans, groups and
 /// objects as one. The file's length is taken off `budget`, which it must not exceed.
-pub(super) fn read(path: &Path, budget: &mut u64) -> Result<Mesh, ReadError> {
-    // Opening a pipe that nobody writes to would wait forever.
-    if std::fs::metadata(path).is_ok_and(|m| !m.is_file()) {
-        return Err(ReadError::File { path: path.into(), problem: "not a file".into() });
-    }
-    let bytes = bytes_of(path, *budget)?;
+pub(super) fn read(assets: &Assets, file: &str, budget: &mut u64) -> Result<Mesh, ReadError> {
+    let bytes = assets.read(file, *budget)?;
     *budget -= bytes.len() as u64;
-    parse(&bytes, path)
+    parse(&bytes, &assets.path(file))
 }
 
 fn parse(bytes: &[u8], path: &Path) -> Result<Mesh, ReadError> {

@@ -7,7 +7,10 @@ use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::{
-    MAX_OBJ_BYTES, ReadError, image, obj, place,
+    MAX_OBJ_BYTES, ReadError,
+    assets::Assets,
+    image::Images,
+    obj, place,
     strict::{Exactly, Table},
 };
 use crate::scene::{
@@ -234,12 +237,12 @@ struct MeshFile {
     material: Option<String>,
 }
 
-pub(super) fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
+pub(super) fn parse(text: &str, file: &Path, assets: &Assets) -> Result<Description, ReadError> {
     let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
     let table = Deserializer::from(table);
     let scene = SceneFile::deserialize(table).map_err(|error| shape(text, file, &error))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    describe(scene, name, file.parent().unwrap_or(Path::new("")))
+    describe(scene, name, assets)
         .and_then(|description| check(&description).map(|()| description))
         .map_err(|Invalid { key, problem }| ReadError::at(file, place::line_of(text, &key), key, problem))
 }
@@ -270,17 +273,17 @@ fn shape(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
     ReadError::at(file, line, key, problem.as_deref().unwrap_or(message))
 }
 
-fn describe(scene: SceneFile, name: String, folder: &Path) -> Result<Description, Invalid> {
+fn describe(scene: SceneFile, name: String, assets: &Assets) -> Result<Description, Invalid> {
     let Table(CameraFile { eye, look_at, up, fov }) = scene.camera;
     let Table(SettingsFile { max_depth, attenuation, ambient }) = scene.settings;
     let lights = scene.light.into_iter().map(|Table(l)| Light { position: l.position.into(), power: l.power.into() });
-    let mut textures = image::Textures::new(folder);
-    let mut names = Names::new(scene.materials, &mut textures)?;
+    let mut images = Images::new(assets);
+    let mut names = Names::new(scene.materials, &mut images)?;
     let mut description = Description {
         name,
         camera: CameraDescription { eye: eye.into(), look_at: look_at.into(), up: up.into(), fov },
         settings: Settings { max_depth, attenuation, ambient: ambient.into() },
-        sky: sky(scene.sky.0, folder)?,
+        sky: sky(scene.sky.0, &mut images)?,
         lights: lights.collect(),
         ..Description::default()
     };
@@ -294,7 +297,7 @@ fn describe(scene: SceneFile, name: String, folder: &Path) -> Result<Description
     let mut budget = MAX_OBJ_BYTES;
     description.meshes = each("mesh", scene.mesh, |m| {
         let material = names.find(m.material)?;
-        let mut mesh = obj::read(&folder.join(&m.file), &mut budget).map_err(|e| Fault("file", e.to_string()))?;
+        let mut mesh = obj::read(assets, &m.file, &mut budget).map_err(|e| Fault("file", e.to_string()))?;
         place_mesh(&mut mesh, m.scale, m.rotation, m.translation)?;
         Ok(Mesh { material, ..mesh })
     })?;
@@ -348,7 +351,7 @@ fn describe(scene: SceneFile, name: String, folder: &Path) -> Result<Description
         Ok(Fractal { center: f.center.into(), radius: f.radius, iterations: f.iterations, material })
     })?;
     description.materials = names.materials;
-    description.textures = textures.images;
+    description.textures = images.textures;
     Ok(description)
 }
 
@@ -367,7 +370,7 @@ fn each<F, P>(
     elements.into_iter().enumerate().map(one).collect()
 }
 
-fn sky(file: SkyFile, folder: &Path) -> Result<Sky, Invalid> {
+fn sky(file: SkyFile, images: &mut Images<'_>) -> Result<Sky, Invalid> {
     let SkyFile { color, gradient, image, rotation } = file;
     let given = usize::from(color.is_some()) + usize::from(gradient.is_some()) + usize::from(image.is_some());
     let invalid = |key: &str, problem: String| Invalid { key: format!("sky.{key}"), problem };
@@ -379,8 +382,7 @@ fn sky(file: SkyFile, folder: &Path) -> Result<Sky, Invalid> {
         return Err(invalid("rotation", "only goes with image".into()));
     }
     if let Some(file) = image {
-        let (width, height, texels) =
-            image::panorama(&folder.join(&file)).map_err(|error| invalid("image", error.to_string()))?;
+        let (width, height, texels) = images.panorama(&file).map_err(|error| invalid("image", error.to_string()))?;
         let dome = Dome { width, height, texels, rotation: rotation.unwrap_or(0.0) };
         return Ok(Sky::Dome(dome.into()));
     }
@@ -418,10 +420,7 @@ fn place_mesh(
     Ok(())
 }
 
-fn material(
-    (name, Table(file)): (String, Table<MaterialFile>),
-    textures: &mut image::Textures,
-) -> Result<Material, Invalid> {
+fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Images<'_>) -> Result<Material, Invalid> {
     let MaterialFile { color, checker, texture, texture_size, reflectance, transmission, .. } = file;
     let invalid =
         |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", check::key_part(&name)), problem };
@@ -436,7 +435,7 @@ fn material(
         (Some(c), ..) => Pigment::Color(c.into()),
         (_, Some(Table(c)), _) => Pigment::Checker { colors: c.colors.0.map(Vec3::from), size: c.size },
         (.., Some(file)) => {
-            let texture = textures.load(&file).map_err(|error| invalid("texture", error.to_string()))?;
+            let texture = images.texture(&file).map_err(|error| invalid("texture", error.to_string()))?;
             Pigment::Texture { texture, size: texture_size.unwrap_or(1.0) }
         }
         _ => Pigment::Color(Vec3::splat(0.8)),
@@ -453,8 +452,8 @@ struct Names {
 }
 
 impl Names {
-    fn new(materials: BTreeMap<String, Table<MaterialFile>>, textures: &mut image::Textures) -> Result<Self, Invalid> {
-        let materials = materials.into_iter().map(|m| material(m, textures)).collect::<Result<Vec<_>, _>>()?;
+    fn new(materials: BTreeMap<String, Table<MaterialFile>>, images: &mut Images<'_>) -> Result<Self, Invalid> {
+        let materials = materials.into_iter().map(|m| material(m, images)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { named: materials.len(), materials })
     }
 
