@@ -1,18 +1,115 @@
-//! Cones.
+//! The cone or frustum |q − A (q·A)| = R(h) at the heights h = q·A from 0 to length, with R linear; open, or closed by
+//! a disc at each end that has a radius. Seen from outside and inside.
+//!
+//! Here q and A run from the narrow end, so that a tip is the origin of all coordinates and keeps its full precision.
+//! With the half-angle α, lengths in units of a power of two near the size, and every point as P = (q·T cos α,
+//! q·B cos α, R(h) cos α), the endless cone is ⟨P, P⟩ = 0 under ⟨P, Q⟩ = P₁Q₁ + P₂Q₂ − P₃Q₃, without a slope that could
+//! be infinite (Schneider and Eberly, *Geometric Tools for Computer Graphics*, 2003, §11.3.5, in other words). A ray
+//! P + t Q meets it where a t² + 2 b t + c = 0, a = ⟨Q, Q⟩, b = ⟨P, Q⟩, c = ⟨P, P⟩.
+//!
+//! One method, [`stable`], with four deviations:
+//!
+//! - the discriminant b² − a c is taken as (P₃Q₁ − P₁Q₃)² + (P₃Q₂ − P₂Q₃)² − (P₁Q₂ − P₂Q₁)², Lagrange's identity
+//!   under this product, whose terms are as small as the ray passes close to the tip; inside, where all terms have one
+//!   sign, as b² − a c. The root that would cancel is c / q;
+//! - a ray nearly parallel to the slant (a ≈ 0) cancels in a and b nevertheless: a root much closer to the tip than the
+//!   origin is solved for again from where it is;
+//! - which of the roots enters the solid cone on this side of the tip is told by the signs of a and Q₃, not by where
+//!   they are. A closed body is that cone within the slab between its ends, as in [`super::cylinder`], and the wide disc
+//!   belongs to it whatever the roots say: its rim is sharp, and a flat cone's side as close to it as rounding;
+//! - on an open cone, the height says whether a root lies between the ends, or for a ray steeper than the slant the
+//!   radius: each changes less than the other along such a ray, so that an error in t matters less.
+//!
+//! Rounding acts as if the origin were moved by at most 12 ε (|o − narrow end| + length + radius) and the direction
+//! turned by at most 8 ε: t is off by that over cos θ at incidence θ, and hits differ only where such a ray's would. A
+//! cone flatter than 2⁻⁴⁰ of its radius is as high as that. What leaves the surface hits nothing there.
 
+use super::axial::{self, Crossing, slab};
 use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface};
-use crate::math::{Lanes, Vec3};
+use crate::math::{LaneMask, Lanes, Vec3, angle};
 
-/// Cones, not traced yet.
+/// The least height, in differences of the radii: far below ε, and its square a normal number.
+const FLATTEST: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Cones, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cones {
-    material: Vec<u32>,
+    /// The middles of the narrow ends.
+    pub narrow: [Vec<f32>; 3],
+    /// The unit axes T and B of the description, and A from the narrow to the wide end.
+    pub axes: Vec<[glam::Vec3; 3]>,
+    /// The radii of the narrow and the wide ends.
+    pub radii: Vec<[f32; 2]>,
+    /// Lengths.
+    pub length: Vec<f32>,
+    /// What the test makes of these.
+    pub shape: Vec<ConeShape>,
+    /// Whether the narrow end is the apex of the description, so that heights count from the wide one.
+    pub upright: Vec<bool>,
+    /// 2½ times the distance from the narrow end's middle to the wide rim; see [`Surface::reach`].
+    pub reach: Vec<f32>,
+    /// Whether the ends are closed.
+    pub caps: Vec<bool>,
+    /// Which side of each is there.
+    pub sides: Vec<Sides>,
+    /// Indices into the scene's materials.
+    pub material: Vec<u32>,
     balls: Balls,
 }
 
+/// A cone's numbers, lengths in the cone's own unit unless said otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConeShape {
+    /// T cos α, B cos α.
+    pub across: [glam::Vec3; 2],
+    /// cos α and sin α of the half-angle α.
+    pub turn: [f32; 2],
+    /// The radii of the narrow and the wide end, times cos α.
+    pub radii: [f32; 2],
+    /// The length.
+    pub length: f32,
+    /// Units in a world unit, a power of two.
+    pub scale: f32,
+    /// World units in a unit.
+    pub unit: f32,
+}
+
+/// A cone as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct ConeRecord {
+    /// The middle of the narrow end.
+    pub narrow: Vec3<f32>,
+    /// A.
+    pub axis: Vec3<f32>,
+    /// Its numbers.
+    pub shape: ConeShape,
+    /// Whether the ends are closed.
+    pub caps: bool,
+    /// Which side is there.
+    pub sides: Sides,
+}
+
+/// What a cone's test needs of it and of the rays' origin, in the cone's unit.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenCone<L> {
+    /// T cos α, B cos α and A.
+    pub axes: [Vec3<L>; 3],
+    /// The origin's P.
+    pub p: [L; 3],
+    /// c = ⟨P, P⟩: below zero inside the cone, and inside its mirror image beyond the tip.
+    pub c: L,
+    /// From the origin to the planes of the narrow and the wide end, along A.
+    pub ends: [L; 2],
+    /// Its numbers.
+    pub shape: ConeShape,
+    /// Whether the ends are closed.
+    pub caps: bool,
+    /// Which side is there.
+    pub sides: Sides,
+}
+
 impl Cones {
-    /// Adds one.
-    #[allow(clippy::too_many_arguments, unused_variables)]
+    /// Adds a cone.
     pub fn push(
         &mut self,
         [base, apex]: [glam::Vec3; 2],
@@ -21,9 +118,94 @@ impl Cones {
         sides: Sides,
         material: u32,
     ) {
+        let ([t, b, axis], length) = axial::axes(base, apex);
+        let upright = apex_radius < base_radius;
+        let (narrow, radii, axis) =
+            if upright { (apex, [apex_radius, base_radius], -axis) } else { (base, [base_radius, apex_radius], axis) };
+        let [inner, outer] = radii.map(f64::from);
+        let length = length.max((outer - inner) * FLATTEST);
+        let slant = length.hypot(outer - inner);
+        let (cos, sin) = (length / slant, (outer - inner) / slant);
+        let scale = 2f64.powi(-length.max(outer).log2().floor() as i32);
+        for (column, value) in self.narrow.iter_mut().zip(narrow.to_array()) {
+            column.push(value);
+        }
+        self.axes.push([t, b, axis].map(|a| a.as_vec3()));
+        self.radii.push(radii);
+        self.length.push(length as f32);
+        self.shape.push(ConeShape {
+            across: [t, b].map(|a| (a * cos).as_vec3()),
+            turn: [cos as f32, sin as f32],
+            radii: [inner, outer].map(|r| (r * scale * cos) as f32),
+            length: (length * scale) as f32,
+            scale: scale as f32,
+            unit: (1.0 / scale) as f32,
+        });
+        self.upright.push(upright);
+        self.reach.push((2.5 * length.hypot(outer)) as f32);
+        self.caps.push(caps);
+        self.sides.push(sides);
         self.material.push(material);
-        self.balls.push(glam::Vec3::ZERO, 0.0);
+        self.balls.push_around(self.bounds(self.material.len() - 1));
     }
+
+    /// A box around cone `i`.
+    pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
+        let ([narrow, axis], [inner, outer]) = ([self.narrow(i), self.axes[i][2]], self.radii[i]);
+        axial::bounds(axis, [(narrow, inner), (narrow + axis * self.length[i], outer)])
+    }
+
+    /// The middle of cone `i`'s narrow end.
+    #[inline(always)]
+    pub fn narrow(&self, i: usize) -> glam::Vec3 {
+        glam::Vec3::new(self.narrow[0][i], self.narrow[1][i], self.narrow[2][i])
+    }
+
+    /// A point relative to cone `i`.
+    #[inline(always)]
+    fn local<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Local<L> {
+        let q = point - Vec3::splat(self.narrow(i));
+        let [x, y, h] = self.axes[i].map(|a| Vec3::splat(a).dot(q));
+        let rho = x.mul_add(x, y * y).sqrt();
+        let [cos, sin] = self.shape[i].turn;
+        let inner = L::splat(self.shape[i].radii[0] * self.shape[i].unit);
+        let outside = rho.mul_add(L::splat(cos), -h.mul_add(L::splat(sin), inner));
+        let beyond = h - L::splat(self.length[i]);
+        let wide = beyond.abs().lt(h.abs());
+        let [narrow, _] = self.radii[i];
+        let mut cap = L::Mask::from_bits(0);
+        if self.caps[i] {
+            // A tip has no disc.
+            let nearest = if narrow > 0.0 { h.abs().min(beyond.abs()) } else { beyond.abs() };
+            cap = nearest.lt(outside.abs()) & (wide | L::splat(narrow).gt(L::zero()));
+        }
+        Local { x, y, h, rho, outside, beyond, cap, wide }
+    }
+
+    /// The description's height above the base, of a height above the narrow end.
+    #[inline(always)]
+    fn height<L: Lanes>(&self, i: usize, h: L) -> L {
+        if self.upright[i] { L::splat(self.length[i]) - h } else { h }
+    }
+}
+
+/// A point relative to a cone.
+#[derive(Clone, Copy, Debug)]
+struct Local<L: Lanes> {
+    /// Coordinates along T, B and A, from the narrow end.
+    x: L,
+    y: L,
+    h: L,
+    /// The distance from the axis.
+    rho: L,
+    /// The distance from the side, above zero outside.
+    outside: L,
+    /// The height above the wide end.
+    beyond: L,
+    /// Whether an end is nearer than the side.
+    cap: L::Mask,
+    /// Whether the wide end is nearer than the narrow one.
+    wide: L::Mask,
 }
 
 impl Bounded for Cones {
@@ -32,40 +214,205 @@ impl Bounded for Cones {
     }
 }
 
-#[allow(unused_variables)]
 impl Primitives for Cones {
-    type Record = Sides;
-    type Seen<L: Lanes> = Vec3<L>;
+    type Record = ConeRecord;
+    type Seen<L: Lanes> = SeenCone<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
     fn len(&self) -> usize {
         self.material.len()
     }
+    #[inline(always)]
     fn material(&self, i: usize) -> u32 {
         self.material[i]
     }
-    fn record(&self, i: usize) -> Sides {
-        Sides::Both
+    #[inline(always)]
+    fn record(&self, i: usize) -> ConeRecord {
+        ConeRecord {
+            narrow: self.narrow(i).into(),
+            axis: self.axes[i][2].into(),
+            shape: self.shape[i],
+            caps: self.caps[i],
+            sides: self.sides[i],
+        }
     }
-    fn seen<L: Lanes>(r: &Sides, origin: Vec3<L>) -> Vec3<L> {
-        origin
+    #[inline(always)]
+    fn seen<L: Lanes>(r: &ConeRecord, origin: Vec3<L>) -> SeenCone<L> {
+        let f = (origin - Vec3::splat(r.narrow.into())) * L::splat(r.shape.scale);
+        let [t, b] = r.shape.across.map(Vec3::splat);
+        let axis = Vec3::splat(r.axis.into());
+        let (x, y, h) = (t.dot(f), b.dot(f), axis.dot(f));
+        let z = h.mul_add(L::splat(r.shape.turn[1]), L::splat(r.shape.radii[0]));
+        SeenCone {
+            axes: [t, b, axis],
+            p: [x, y, z],
+            // Not fused: what is rounded alike cancels on the surface.
+            c: x * x + y * y - z * z,
+            ends: [-h, L::splat(r.shape.length) - h],
+            shape: r.shape,
+            caps: r.caps,
+            sides: r.sides,
+        }
     }
-    fn splat<L: Lanes>(s: &Vec3<f32>) -> Vec3<L> {
-        Vec3::splat((*s).into())
+    #[inline(always)]
+    fn splat<L: Lanes>(s: &SeenCone<f32>) -> SeenCone<L> {
+        SeenCone {
+            axes: s.axes.map(|a| Vec3::splat(a.into())),
+            p: s.p.map(L::splat),
+            c: L::splat(s.c),
+            ends: s.ends.map(L::splat),
+            shape: s.shape,
+            caps: s.caps,
+            sides: s.sides,
+        }
     }
+    #[inline(always)]
     fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
         direction
     }
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &Vec3<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        None
+    #[inline(always)]
+    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCone<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+        stable(seen, *d, if SIDED { seen.sides } else { Sides::Both }, t_min, t_max)
     }
+
+    #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        Surface { point, normal: point, reach: 0.0 }
+        let Local { x, y, h, rho, outside, beyond, cap, wide } = self.local(i, point);
+        let [t, b, axis] = self.axes[i].map(Vec3::splat);
+        let [cos, sin] = self.shape[i].turn.map(L::splat);
+        // At the tip any direction is as good.
+        let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
+        let side = axis.mul_add(-sin, radial * cos);
+        let normal = axis.select(wide, -axis).select(cap, side);
+        let height = beyond.select(wide, -h).select(cap, outside);
+        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
     }
+    #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
-        [L::zero(), L::zero()]
+        let Local { x, y, h, cap, wide, .. } = self.local(i, surface.point);
+        let [narrow, outer] = self.radii[i].map(|r| L::splat(0.5 / r));
+        let (half, across) = (L::splat(0.5), outer.select(wide, narrow));
+        let side = [angle::turn(x, y), self.height(i, h) * L::splat(1.0 / self.length[i])];
+        [x.mul_add(across, half).select(cap, side[0]), y.mul_add(across, half).select(cap, side[1])]
     }
+    #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        surface.point
+        let Local { x, y, h, cap, .. } = self.local(i, surface.point);
+        Vec3::new(x, y, L::zero().select(cap, self.height(i, h)))
     }
 }
+
+/// ⟨P, Q⟩ of the module's text.
+#[inline(always)]
+fn product<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
+    p[2].neg_mul_add(q[2], p[0].mul_add(q[0], p[1] * q[1]))
+}
+
+/// A ray in a cone's coordinates: P, Q, and the coefficients of its quadratic.
+#[derive(Clone, Copy, Debug)]
+struct Line<L> {
+    p: [L; 3],
+    q: [L; 3],
+    a: L,
+    b: L,
+    c: L,
+}
+
+impl<L: Lanes> Line<L> {
+    /// The discriminant b² − a c; below zero or NaN where the line misses the cone.
+    #[inline(always)]
+    fn discriminant(&self) -> L {
+        let ([px, py, pz], [qx, qy, qz]) = (self.p, self.q);
+        let (x, y) = (px.neg_mul_add(qz, pz * qx), py.neg_mul_add(qz, pz * qy));
+        let apart = py.neg_mul_add(qx, px * qy);
+        let outside = apart.neg_mul_add(apart, x.mul_add(x, y * y));
+        // Steeper than the slant, every line meets the cone.
+        let steep = self.a.lt(L::zero());
+        let outside = L::zero().select(steep & outside.lt(L::zero()), outside);
+        let inside = !steep & self.c.lt(L::zero());
+        self.a.neg_mul_add(self.c, self.b * self.b).select(inside, outside)
+    }
+
+    /// Both roots, the lesser first.
+    #[inline(always)]
+    fn roots(&self, root: L) -> (L, L) {
+        let ahead = self.b.lt(L::zero());
+        let q = (root - self.b).select(ahead, -(self.b + root));
+        // From the tip itself all is zero, and both roots are.
+        let other = (self.c / q).select(!q.eq(L::zero()), L::zero());
+        let [first, second] = [self.refined(q / self.a, root), self.refined(other, root)];
+        (first.min(second), first.max(second))
+    }
+
+    /// The root at `t`, solved for again from there where that is a quarter as far from the tip or less.
+    #[inline(always)]
+    fn refined(&self, t: L, root: L) -> L {
+        let size = |[x, y, z]: [L; 3]| x.mul_add(x, y.mul_add(y, z * z));
+        let p = [0, 1, 2].map(|k| self.q[k].mul_add(t, self.p[k]));
+        let near = (size(p) * L::splat(16.0)).lt(size(self.p));
+        if !near.any() {
+            return t;
+        }
+        let (b, c) = (product(p, self.q), product(p, p));
+        let q = root + b.abs();
+        // Beside a tangent |a c| ≤ q² no longer holds: that is rounding, and nothing to learn from.
+        let sound = near & (self.a * c).abs().le(q * q) & q.gt(L::zero());
+        let step = c / q;
+        (t + step.select(b.lt(L::zero()), -step)).select(sound, t)
+    }
+}
+
+/// See the module's text.
+#[inline(always)]
+pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_min: L, t_max: L) -> Nearest<L> {
+    let shape = &seen.shape;
+    let [x, y, along] = seen.axes.map(|a| a.dot(direction));
+    let (p, q) = (seen.p, [x, y, along * L::splat(shape.turn[1])]);
+    let line = Line { p, q, a: product(q, q), b: product(p, q), c: seen.c };
+    let discriminant = line.discriminant();
+    let possible = discriminant.ge(L::zero());
+    if !possible.any() {
+        return None;
+    }
+    let (least, most) = line.roots(discriminant.sqrt());
+    // Steeper than the slant, one root is the mirror image's, and the cone has no end on the other side.
+    let steep = line.a.lt(L::zero());
+    let opening = q[2].gt(L::zero());
+    let far = L::splat(f32::INFINITY);
+    let enter = most.select(opening, -far).select(steep, least);
+    let exit = far.select(opening, least).select(steep, most);
+    // From inside the ray has entered already, and is yet to leave.
+    let inside = seen.c.lt(L::zero()) & p[2].gt(L::zero());
+    let enter = enter.min(L::zero()).select(inside, enter);
+    let exit = exit.max(L::zero()).select(inside, exit);
+    let [low, high] = seen.ends;
+    let (start, end) = slab(low, high, along);
+    // The squared distance from the axis, in units of cos α.
+    let away = |t: L| {
+        let (x, y) = (q[0].mul_add(t, p[0]), q[1].mul_add(t, p[1]));
+        x.mul_add(x, y * y)
+    };
+    let [inner2, outer2] = shape.radii.map(|r| L::splat(r * r));
+    let mut crossing = if seen.caps {
+        let (enter, exit) = (enter.max(start), exit.min(end));
+        let wide = high / along;
+        let disc = away(wide).le(outer2);
+        let (enter, exit) = (wide.min(enter).select(disc, enter), wide.max(exit).select(disc, exit));
+        let met = possible & enter.le(exit);
+        Crossing { enter, exit, entered: met, left: met }
+    } else {
+        let between = |t: L| {
+            let away = away(t);
+            let by_radius = steep & away.ge(inner2) & away.le(outer2);
+            possible & (by_radius | !steep & t.ge(start) & t.le(end))
+        };
+        Crossing { enter, exit, entered: between(enter), left: between(exit) }
+    };
+    let unit = L::splat(shape.unit);
+    (crossing.enter, crossing.exit) = (crossing.enter * unit, crossing.exit * unit);
+    crossing.nearest(sides, t_min, t_max)
+}
+
+#[cfg(test)]
+#[path = "cone_tests.rs"]
+mod tests;

@@ -3,6 +3,9 @@
 //! A test takes what depends on the ray's origin alone apart (`Seen…`), since rays that share their origin share
 //! it too; computed once for a batch or in every lane, it is the same arithmetic and so the same bits.
 
+mod axial;
+#[cfg(test)]
+mod axial_tests;
 mod balls;
 pub mod cone;
 pub mod cuboid;

@@ -159,8 +159,8 @@ impl fmt::Display for Plan {
             ("triangles", "method `watertight`: no ray slips between triangles that share an edge or corner"),
             ("quads", "method `moller_trumbore`, as nothing shares their edges"),
             ("boxes", "METHOD"),
-            ("cylinders", "METHOD"),
-            ("cones", "METHOD"),
+            ("cylinders", "method `stable`; a closed one is an endless one within a slab, without cracks"),
+            ("cones", "method `stable`, in the cone's own product, so that its tip and slant do not cancel"),
             ("tori", "method `monotone_newton`, which loses no root, single or double, near or far"),
             ("fractals", "METHOD"),
         ];
