@@ -73,14 +73,11 @@ pub(super) fn bilinear<L: Lanes>(
     // Corner, channel, lane.
     let mut corners = [[[0.0; MOST_LANES]; 3]; 4];
     for lane in 0..L::WIDTH {
-        for (corner, row, column) in [
-            (0, rows.from[lane], columns.from[lane]),
-            (1, rows.from[lane], columns.to[lane]),
-            (2, rows.to[lane], columns.from[lane]),
-            (3, rows.to[lane], columns.to[lane]),
-        ] {
-            let color = texel(row * width + column);
-            (0..3).for_each(|channel| corners[corner][channel][lane] = color[channel]);
+        let [upper, lower] = [rows.from[lane] * width, rows.to[lane] * width];
+        let [left, right] = [columns.from[lane], columns.to[lane]];
+        let colors = [upper + left, upper + right, lower + left, lower + right].map(&texel);
+        for (channels, color) in corners.iter_mut().zip(colors) {
+            channels.iter_mut().zip(color).for_each(|(lanes, value)| lanes[lane] = value);
         }
     }
     let [a, b, c, d] = corners.map(|columns| Vec3::<L>::load(&columns, 0));

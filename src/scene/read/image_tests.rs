@@ -77,8 +77,6 @@ fn jpeg_is_read_as_nearly_as_it_keeps() {
 
 #[test]
 fn panoramas_are_linear() {
-    let texels = [[0.5, 1e-3, 7e4], [0.0, 1.0, 2.0]];
-    assert_eq!(panorama(&exr(&texels, 1)).unwrap(), (1, 2, texels.to_vec()));
     let (.., bytes) = panorama(&png(&[0, 128, 255], 1, 1, ColorType::Rgb8)).unwrap();
     assert_eq!(bytes, [[0.0, linear_of_bytes()[128], 1.0]]);
     assert_eq!(panorama(b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x40\x00\x82").unwrap(), (1, 1, vec![[2.0, 1.0, 0.0]]));
@@ -103,14 +101,10 @@ fn a_scene_finds_its_images_beside_itself() {
 
 #[test]
 fn every_fault_is_a_line_with_the_place_and_the_file() {
-    let bad = exr(&[[1.0, 2.0, 3.0], [0.0, f32::NAN, 0.0]], 2);
-    let below = exr(&[[1.0, -2.0, 3.0]], 1);
-    let infinite = exr(&[[1.0, 1.0, f32::INFINITY]], 1);
+    let bad = exr(&[[1.0; 3]], 1);
     let wide = png(&vec![0; 16_385], 16_385, 1, ColorType::L8);
-    let files: [(&str, &[u8]); 6] = [
+    let files: [(&str, &[u8]); 4] = [
         ("bad.exr", &bad),
-        ("below.exr", &below),
-        ("infinite.exr", &infinite),
         ("wide.png", &wide),
         ("huge.hdr", b"#?RADIANCE\n\n-Y 16384 +X 16384\n"),
         ("text", b"hello"),
@@ -121,19 +115,8 @@ fn every_fault_is_a_line_with_the_place_and_the_file() {
         ("materials.x.texture = 'none'", "s.toml:1: materials.x.texture: none: No such file or directory (os error 2)"),
         ("materials.x.texture = '../'", "s.toml:1: materials.x.texture: ../: not a regular file"),
         ("materials.x.texture = 'wide.png'", "s.toml:1: materials.x.texture: wide.png: Image size exceeds limit"),
-        ("sky.image = 'text'", "s.toml:1: sky.image: text: neither Radiance, OpenEXR, PNG nor JPEG"),
-        (
-            "sky.image = 'bad.exr'",
-            "s.toml:1: sky.image: bad.exr: column 1, row 0: must be finite and 0 or more, got [0, NaN, 0]",
-        ),
-        (
-            "sky.image = 'below.exr'",
-            "s.toml:1: sky.image: below.exr: column 0, row 0: must be finite and 0 or more, got [1, -2, 3]",
-        ),
-        (
-            "sky.image = 'infinite.exr'",
-            "s.toml:1: sky.image: infinite.exr: column 0, row 0: must be finite and 0 or more, got [1, 1, inf]",
-        ),
+        ("sky.image = 'text'", "s.toml:1: sky.image: text: neither Radiance, PNG nor JPEG"),
+        ("sky.image = 'bad.exr'", "s.toml:1: sky.image: bad.exr: neither Radiance, PNG nor JPEG"),
         (
             "sky.image = 'huge.hdr'",
             "s.toml:1: sky.image: huge.hdr: 16384 × 16384: at most 67108864 pixels in all images, 67108864 left",
@@ -195,7 +178,6 @@ fn no_damage_to_a_file_makes_it_panic() {
     let sound = [
         png(&slope(9, 7), 9, 7, ColorType::Rgb8),
         encoded(&slope(16, 9), 16, 9, ColorType::Rgb8, ImageFormat::Jpeg),
-        exr(&floats, 12),
         pixels,
         runs,
     ];
