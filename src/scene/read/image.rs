@@ -24,7 +24,11 @@ impl Textures {
 
     /// The index of a file's texture.
     pub fn load(&mut self, file: &str) -> Result<usize, ReadError> {
-        let path = self.folder.join(file);
+        self.load_at(self.folder.join(file))
+    }
+
+    /// The same for a file by its whole path.
+    pub fn load_at(&mut self, path: PathBuf) -> Result<usize, ReadError> {
         if let Some(index) = self.files.iter().position(|known| *known == path) {
             return Ok(index);
         }
