@@ -16,8 +16,8 @@ const MAX_LINE: u64 = 4 << 20;
 const STEP: u64 = 1 << 20;
 
 /// The lines of a file, without their ends; one that ends in a backslash goes on in the next.
-pub(super) struct Lines<'a> {
-    reader: BufReader<io::Take<File>>,
+pub(super) struct Lines<'a, R> {
+    reader: BufReader<io::Take<R>>,
     path: &'a Path,
     line: Vec<u8>,
     /// The number of the last line that was read.
@@ -28,14 +28,21 @@ pub(super) struct Lines<'a> {
     progress: Progress<'a>,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> Lines<'a, File> {
     /// Opens a file that is no longer than `limit`.
     pub fn open(path: &'a Path, limit: u64, progress: Progress<'a>) -> Result<Self, ReadError> {
         let (file, length) = open(path, limit)?;
+        Ok(Self::new(file, path, (limit, length), progress))
+    }
+}
+
+impl<'a, R: Read> Lines<'a, R> {
+    /// Reads what is called `path` in messages, up to a limit; of its length only progress is told.
+    pub fn new(reader: R, path: &'a Path, (limit, length): (u64, u64), progress: Progress<'a>) -> Self {
         progress(0, length);
         // The file may grow.
-        let reader = BufReader::with_capacity(1 << 16, file.take(limit + 1));
-        Ok(Self { reader, path, line: Vec::new(), number: 0, limit, length, done: 0, progress })
+        let reader = BufReader::with_capacity(1 << 16, reader.take(limit + 1));
+        Self { reader, path, line: Vec::new(), number: 0, limit, length, done: 0, progress }
     }
 
     /// How many bytes have been read.

@@ -2,13 +2,18 @@
 //!
 //! Groups and objects are one mesh, with the faces in the order of the file. Polygons may be concave
 //! ([`polygon::triangulate`](super::polygon::triangulate)); what has no area stays, as a fan that no ray hits. Lines,
-//! points, curves, smoothing groups and whatever else is not known are ignored.
+//! points, curves, smoothing groups and whatever else is not known are ignored. The names of materials run to the end
+//! of the line; without any `mtllib` they mean nothing.
 
 mod alone;
 mod corners;
 mod mtl;
 
-use std::{collections::HashMap, path::Path};
+use std::{
+    collections::{HashMap, HashSet},
+    io::Read,
+    path::Path,
+};
 
 use glam::{Vec2, Vec3};
 
@@ -73,7 +78,15 @@ pub(super) fn read(
     budget: &mut Budget,
     progress: Progress<'_>,
 ) -> Result<Model, ReadError> {
-    let mut lines = Lines::open(path, budget.bytes, progress)?;
+    read_lines(Lines::open(path, budget.bytes, progress)?, path, textures, budget)
+}
+
+fn read_lines<R: Read>(
+    mut lines: Lines<'_, R>,
+    path: &Path,
+    textures: Option<&mut Textures>,
+    budget: &mut Budget,
+) -> Result<Model, ReadError> {
     let mut reader = Reader::new(path, textures.is_some(), budget.triangles);
     while let Some((number, line)) = lines.next()? {
         reader.statement(&line, number).map_err(|(key, problem)| ReadError::at(path, number, key, problem))?;
@@ -238,7 +251,8 @@ impl<'a> Reader<'a> {
         let Some(groups) = &mut self.groups else { return };
         // Several files, or one with spaces in its name.
         let one = self.path.with_file_name(names).is_file();
-        let files: Vec<&str> = if one { vec![names] } else { names.split_ascii_whitespace().collect() };
+        let words = names.split_ascii_whitespace().take_while(|word| !word.starts_with('#'));
+        let files: Vec<&str> = if one { vec![names] } else { words.collect() };
         groups.libraries.extend(files.into_iter().map(|file| (file.to_owned(), line)));
     }
 
@@ -278,7 +292,7 @@ impl Groups {
         budget: &mut Budget,
     ) -> Result<(Vec<Material>, Vec<u32>, bool), ReadError> {
         let mut library = Library::default();
-        let mut read = std::collections::HashSet::new();
+        let mut read = HashSet::new();
         for (file, line) in &self.libraries {
             let file = path.with_file_name(file);
             if read.contains(&file) {

@@ -14,6 +14,7 @@
 
 use std::{
     collections::HashMap,
+    io::Read,
     path::{Path, PathBuf},
     rc::Rc,
 };
@@ -52,7 +53,13 @@ impl Library {
     /// of one of its lines.
     pub fn read(&mut self, path: &Path, budget: &mut Budget) -> Result<(), ReadError> {
         let mut ignore = |_, _| ();
-        let mut lines = Lines::open(path, budget.bytes, &mut ignore)?;
+        let lines = Lines::open(path, budget.bytes, &mut ignore)?;
+        budget.bytes -= self.read_lines(lines, path)?;
+        Ok(())
+    }
+
+    /// Says how many bytes it read.
+    pub(super) fn read_lines<R: Read>(&mut self, mut lines: Lines<'_, R>, path: &Path) -> Result<u64, ReadError> {
         let file: Rc<Path> = path.into();
         let mut current: Option<(String, Entry)> = None;
         while let Some((number, line)) = lines.next()? {
@@ -65,9 +72,8 @@ impl Library {
                 entry.set(key, rest.trim(), number).map_err(|problem| ReadError::at(path, number, key, problem))?;
             }
         }
-        budget.bytes -= lines.done();
         self.add(current);
-        Ok(())
+        Ok(lines.done())
     }
 
     fn add(&mut self, named: Option<(String, Entry)>) {
