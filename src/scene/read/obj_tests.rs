@@ -396,7 +396,7 @@ fn spoil(text: &str, state: &mut u64) -> Vec<u8> {
         "map_Kd -o 1 2 x.png\n",
     ];
     let mut bytes = text.as_bytes().to_vec();
-    for _ in 0..1 + random(state, 4) {
+    for _ in 0..1 + random(state, 3) {
         let start = random(state, bytes.len() + 1);
         let end = (start + random(state, 6)).min(bytes.len());
         bytes.splice(start..end, BITS[random(state, BITS.len())].bytes());
