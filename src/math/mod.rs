@@ -6,10 +6,12 @@ mod batch;
 mod isa;
 mod lanes;
 mod power;
+mod srgb;
 mod vec3;
 
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
 pub use lanes::{LaneMask, Lanes, MOST_LANES};
 pub use power::powf;
+pub use srgb::linear_of_bytes;
 pub use vec3::Vec3;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{Description, Progress, ReadError, parse, read_obj, read_with_progress};
+use super::read::{Assets, parse_with};
+use super::{Description, Progress, ReadError, read_obj, read_with_progress};
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +58,10 @@ pub fn load_with_progress(name_or_path: &str, progress: Progress<'_>) -> Result<
         Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
         None if path.is_file() => read_with_progress(path, progress),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {
-            Some(builtin) => parse(builtin.source, Path::new(&format!("scenes/{}.toml", builtin.name))),
+            Some(builtin) => {
+                let file = format!("scenes/{}.toml", builtin.name);
+                parse_with(builtin.source, Path::new(&file), &Assets::Builtin, progress)
+            }
             None => {
                 Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") })
             }

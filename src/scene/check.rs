@@ -48,6 +48,9 @@ pub fn check(description: &Description) -> Result<(), Invalid> {
         rule(point(light.position), || format!("light[{i}].position"))?;
         rule(color(light.power), || format!("light[{i}].power"))?;
     }
+    for (i, texture) in description.textures.iter().enumerate() {
+        rule(image(texture.width, texture.height, texture.texels.len()), || format!("textures[{i}]"))?;
+    }
     for material in &description.materials {
         surface(material, description.textures.len())?;
     }
@@ -103,9 +106,15 @@ fn settings(description: &Description) -> Result<(), Invalid> {
 
 fn panorama(dome: &Dome) -> Result<(), String> {
     let Dome { width, height, ref texels, .. } = *dome;
-    require(width > 0 && height > 0 && texels.len() == width * height, || format!("no image of {width} × {height}"))?;
+    image(width, height, texels.len())?;
     let sound = |t: &[f32; 3]| t.iter().all(|c| c.is_finite() && *c >= 0.0);
     require(texels.iter().all(sound), || "a texel is not finite, or below 0".into())
+}
+
+/// A number of pixels that makes a rectangle.
+fn image(width: usize, height: usize, texels: usize) -> Result<(), String> {
+    let all = texels > 0 && width.checked_mul(height) == Some(texels);
+    require(all, || format!("no image of {width} × {height}"))
 }
 
 fn surface(material: &Material, textures: usize) -> Result<(), Invalid> {

@@ -1,11 +1,94 @@
-//! Colours from images.
+//! Colours from images: bilinear between the four nearest texel centres.
 
-use crate::math::{Lanes, Vec3};
+use crate::math::{Lanes, MOST_LANES, Vec3, linear_of_bytes};
 use crate::scene::Texture;
 
 /// The linear colour at (u, v); see [`Texture`].
+///
+/// The place in the image is off by at most 2⁻²³ of its width and height. Far out, u and v are whole numbers; what is
+/// not finite counts as column or row 0.
 #[inline(never)]
 pub fn sample<L: Lanes>(texture: &Texture, u: L, v: L) -> Vec3<L> {
-    let _ = (texture, u, v);
-    Vec3::splat(glam::Vec3::ONE)
+    let columns = Span::repeating(u, texture.width);
+    let rows = Span::repeating(-v, texture.height);
+    let linear = linear_of_bytes();
+    bilinear(columns, rows, texture.width, |texel| texture.texels[texel].map(|byte| linear[usize::from(byte)]))
 }
+
+/// Two neighbouring columns or rows in every lane, and how far from the first to the second.
+pub(super) struct Span {
+    from: [usize; MOST_LANES],
+    to: [usize; MOST_LANES],
+    part: [f32; MOST_LANES],
+}
+
+impl Span {
+    /// Texel centres are at (i + ½) / `count`; after the last comes the first.
+    #[inline(always)]
+    pub fn repeating<L: Lanes>(s: L, count: usize) -> Self {
+        let (zero, n) = (L::zero(), L::splat(count as f32));
+        // 1 for what rounds up to it, so the place is from −½ to `count` − ½, and NaN for what is not finite.
+        let place = (s - s.floor()).mul_add(n, L::splat(-0.5));
+        let below = place.floor();
+        let above = below + L::splat(1.0);
+        let from = (below + n).select(below.lt(zero), below);
+        Self::new(from, zero.select(above.ge(n), above), place - below, count)
+    }
+
+    /// The same for s from 0 to 1, where the first and last go on beyond the border.
+    #[inline(always)]
+    pub fn clamped<L: Lanes>(s: L, count: usize) -> Self {
+        let last = L::splat(count as f32) - L::splat(1.0);
+        let place = s.mul_add(L::splat(count as f32), L::splat(-0.5));
+        // In this order, NaN passes.
+        let place = L::zero().max(last.min(place));
+        let below = place.floor();
+        Self::new(below, last.min(below + L::splat(1.0)), place - below, count)
+    }
+
+    /// Whole numbers that are below `count`, or where `count` has more than 24 bits about as much, or NaN.
+    #[inline(always)]
+    fn new<L: Lanes>(from: L, to: L, part: L, count: usize) -> Self {
+        let index = |whole: L| {
+            let mut lanes = [0.0; MOST_LANES];
+            whole.store(&mut lanes);
+            // NaN becomes 0.
+            lanes.map(|whole| (whole as usize).min(count - 1))
+        };
+        let finite = part.ge(L::zero());
+        let mut lanes = [0.0; MOST_LANES];
+        part.select(finite, L::zero()).store(&mut lanes);
+        Self { from: index(from), to: index(to.select(finite, L::zero())), part: lanes }
+    }
+}
+
+/// The mean of the four texels, with `texel` by its index in rows of `width`.
+#[inline(always)]
+pub(super) fn bilinear<L: Lanes>(
+    columns: Span,
+    rows: Span,
+    width: usize,
+    texel: impl Fn(usize) -> [f32; 3],
+) -> Vec3<L> {
+    // Corner, channel, lane.
+    let mut corners = [[[0.0; MOST_LANES]; 3]; 4];
+    for lane in 0..L::WIDTH {
+        for (corner, row, column) in [
+            (0, rows.from[lane], columns.from[lane]),
+            (1, rows.from[lane], columns.to[lane]),
+            (2, rows.to[lane], columns.from[lane]),
+            (3, rows.to[lane], columns.to[lane]),
+        ] {
+            let color = texel(row * width + column);
+            (0..3).for_each(|channel| corners[corner][channel][lane] = color[channel]);
+        }
+    }
+    let [a, b, c, d] = corners.map(|columns| Vec3::<L>::load(&columns, 0));
+    let (across, down) = (L::load(&columns.part), L::load(&rows.part));
+    let (upper, lower) = ((b - a).mul_add(across, a), (d - c).mul_add(across, c));
+    (lower - upper).mul_add(down, upper)
+}
+
+#[cfg(test)]
+#[path = "texture_tests.rs"]
+mod tests;

@@ -1,48 +1,157 @@
 //! Pictures for surfaces and for the sky.
+//!
+//! Which format a file has is told by its first bytes, not by its name. Profiles of colour, gamma chunks and turns noted
+//! by cameras (EXIF) are not looked at: PNG and JPEG count as sRGB, the first row is the top.
 
 use std::{
+    io::Cursor,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-use super::ReadError;
-use crate::scene::Texture;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-/// The textures of a scene, each file read once.
-pub(super) struct Textures {
-    folder: PathBuf,
+use super::{ReadError, assets::Assets, bytes_of, one_line, radiance};
+use crate::{math::linear_of_bytes, scene::Texture};
+
+/// The most pixels of a side of an image.
+pub const MAX_IMAGE_SIDE: u32 = 16_384;
+
+/// The most pixels of all images of a scene together. Reading takes up to 28 bytes of memory for each.
+pub const MAX_IMAGE_PIXELS: u64 = 64 << 20;
+
+/// The most that is read from all image files of a scene together.
+pub const MAX_IMAGE_BYTES: u64 = 256 << 20;
+
+/// The images of a scene, each texture's file read once.
+pub(super) struct Images<'a> {
+    assets: &'a Assets,
     files: Vec<PathBuf>,
     /// By index.
-    pub images: Vec<Arc<Texture>>,
+    pub textures: Vec<Arc<Texture>>,
+    bytes_left: u64,
+    pixels_left: u64,
 }
 
-impl Textures {
-    /// For files named relative to `folder`.
-    pub fn new(folder: &Path) -> Self {
-        Self { folder: folder.into(), files: Vec::new(), images: Vec::new() }
+/// Width, height and linear RGB.
+type Panorama = (usize, usize, Vec<[f32; 3]>);
+
+impl<'a> Images<'a> {
+    pub fn new(assets: &'a Assets) -> Self {
+        let (files, textures) = (Vec::new(), Vec::new());
+        Self { assets, files, textures, bytes_left: MAX_IMAGE_BYTES, pixels_left: MAX_IMAGE_PIXELS }
     }
 
-    /// The index of a file's texture.
-    pub fn load(&mut self, file: &str) -> Result<usize, ReadError> {
-        self.load_at(self.folder.join(file))
+    /// The index of a file's texture: PNG or JPEG.
+    ///
+    /// Of 16 bits the upper 8 are kept, rounded; grey becomes red, green and blue. An alpha channel is dropped: the
+    /// colours show as they are stored, and the surface stays opaque.
+    pub fn texture(&mut self, file: &str) -> Result<usize, ReadError> {
+        self.texture_from(self.assets.path(file), |images| images.bytes(file))
     }
 
-    /// The same for a file by its whole path.
-    pub fn load_at(&mut self, path: PathBuf) -> Result<usize, ReadError> {
+    /// The same for a file that a mesh names, by its whole path.
+    pub fn texture_at(&mut self, path: PathBuf) -> Result<usize, ReadError> {
+        self.texture_from(path.clone(), |images| {
+            let bytes = bytes_of(&path, images.bytes_left)?;
+            images.bytes_left -= bytes.len() as u64;
+            Ok(bytes)
+        })
+    }
+
+    fn texture_from(
+        &mut self,
+        path: PathBuf,
+        bytes: impl FnOnce(&mut Self) -> Result<Vec<u8>, ReadError>,
+    ) -> Result<usize, ReadError> {
         if let Some(index) = self.files.iter().position(|known| *known == path) {
             return Ok(index);
         }
-        self.images.push(texture(&path)?.into());
+        let bytes = bytes(self)?;
+        let texture = self.rgb8(&bytes).map_err(|problem| fault(&path, problem))?;
+        self.textures.push(texture.into());
         self.files.push(path);
-        Ok(self.images.len() - 1)
+        Ok(self.textures.len() - 1)
+    }
+
+    /// An equirectangular panorama: Radiance (`.hdr`) or OpenEXR, which are linear, or PNG or JPEG as for textures.
+    pub fn panorama(&mut self, file: &str) -> Result<Panorama, ReadError> {
+        let path = self.assets.path(file);
+        let bytes = self.bytes(file)?;
+        self.linear(&bytes).map_err(|problem| fault(&path, problem))
+    }
+
+    fn bytes(&mut self, file: &str) -> Result<Vec<u8>, ReadError> {
+        let bytes = self.assets.read(file, self.bytes_left)?;
+        self.bytes_left -= bytes.len() as u64;
+        Ok(bytes)
+    }
+
+    fn rgb8(&mut self, bytes: &[u8]) -> Result<Texture, String> {
+        let format = image::guess_format(bytes).ok();
+        let format = format.filter(|f| [ImageFormat::Png, ImageFormat::Jpeg].contains(f));
+        let image = self.decode(bytes, format.ok_or("neither PNG nor JPEG")?)?.into_rgb8();
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        Ok(Texture { width, height, texels: image.as_raw().as_chunks().0.to_vec() })
+    }
+
+    fn linear(&mut self, bytes: &[u8]) -> Result<Panorama, String> {
+        let (width, height, texels) = if radiance::is_radiance(bytes) {
+            radiance::decode(bytes, |width, height| self.count(width, height))?
+        } else if let Ok(ImageFormat::OpenExr) = image::guess_format(bytes) {
+            let image = self.decode(bytes, ImageFormat::OpenExr)?.into_rgb32f();
+            (image.width() as usize, image.height() as usize, image.as_raw().as_chunks().0.to_vec())
+        } else {
+            let Texture { width, height, texels } = self.rgb8(bytes).map_err(|problem| {
+                problem.replace("neither PNG nor JPEG", "neither Radiance, OpenEXR, PNG nor JPEG")
+            })?;
+            let table = linear_of_bytes();
+            (width, height, texels.iter().map(|texel| texel.map(|byte| table[usize::from(byte)])).collect())
+        };
+        let faulty = |texel: &[f32; 3]| texel.iter().any(|c| !(c.is_finite() && *c >= 0.0));
+        if let Some(at) = texels.iter().position(faulty) {
+            let (column, row, [r, g, b]) = (at % width, at / width, texels[at]);
+            return Err(format!("column {column}, row {row}: must be finite and 0 or more, got [{r}, {g}, {b}]"));
+        }
+        Ok((width, height, texels))
+    }
+
+    /// The size is asked for, and judged, before there is any memory for the pixels.
+    fn decode(&mut self, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage, String> {
+        let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(MAX_IMAGE_SIDE);
+        limits.max_image_height = Some(MAX_IMAGE_SIDE);
+        // Four channels of 32 bits, and what a decoder needs besides.
+        limits.max_alloc = Some(16 * MAX_IMAGE_PIXELS + (64 << 20));
+        reader.limits(limits);
+        let decoder = reader.into_decoder().map_err(|error| error.to_string())?;
+        let (width, height) = decoder.dimensions();
+        self.count(width, height)?;
+        DynamicImage::from_decoder(decoder).map_err(|error| error.to_string())
+    }
+
+    /// Takes an image's pixels off what is left for the scene.
+    fn count(&mut self, width: u32, height: u32) -> Result<(), String> {
+        if width == 0 || height == 0 {
+            return Err(format!("no pixels: {width} × {height}"));
+        }
+        if width > MAX_IMAGE_SIDE || height > MAX_IMAGE_SIDE {
+            return Err(format!("{width} × {height}: at most {MAX_IMAGE_SIDE} pixels a side"));
+        }
+        let pixels = u64::from(width) * u64::from(height);
+        let left = self.pixels_left.checked_sub(pixels);
+        self.pixels_left = left.ok_or_else(|| {
+            format!("{width} × {height}: at most {MAX_IMAGE_PIXELS} pixels in all images, {} left", self.pixels_left)
+        })?;
+        Ok(())
     }
 }
 
-fn texture(path: &Path) -> Result<Texture, ReadError> {
-    Err(ReadError::File { path: path.into(), problem: "textures are not supported yet".into() })
+fn fault(path: &Path, problem: String) -> ReadError {
+    ReadError::File { path: path.into(), problem: one_line(problem) }
 }
 
-/// Width, height and texels of an equirectangular panorama.
-pub(super) fn panorama(path: &Path) -> Result<(usize, usize, Vec<[f32; 3]>), ReadError> {
-    Err(ReadError::File { path: path.into(), problem: "panoramas are not supported yet".into() })
-}
+#[cfg(test)]
+#[path = "image_tests.rs"]
+mod tests;

@@ -1,14 +1,14 @@
 //! From a file to a [`Description`]; every fault is one line that names the file, the line and the key.
 
+mod assets;
 mod image;
 mod lines;
 mod obj;
 mod place;
 mod polygon;
+mod radiance;
 mod strict;
 mod toml;
-
-pub(super) use obj::alone as read_obj;
 
 use std::{
     fmt,
@@ -18,6 +18,9 @@ use std::{
 };
 
 use super::Description;
+pub(super) use assets::Assets;
+pub use image::{MAX_IMAGE_BYTES, MAX_IMAGE_PIXELS, MAX_IMAGE_SIDE};
+pub(super) use obj::alone as read_obj;
 
 /// The largest scene file that is read. Parsing takes up to about a hundred times the file's size in memory.
 pub const MAX_TOML_BYTES: u64 = 16 << 20;
@@ -83,7 +86,7 @@ impl ReadError {
     }
 }
 
-/// Reads a scene file in TOML. Mesh files are looked for beside it.
+/// Reads a scene file in TOML. Meshes and images are looked for beside it.
 ///
 /// # Errors
 /// [`ReadError`] for a file that cannot be read or does not describe a sound scene.
@@ -98,7 +101,7 @@ pub fn read(path: &Path) -> Result<Description, ReadError> {
 pub fn read_with_progress(path: &Path, progress: Progress<'_>) -> Result<Description, ReadError> {
     let bytes = bytes_of(path, MAX_TOML_BYTES)?;
     match std::str::from_utf8(&bytes) {
-        Ok(text) => toml::parse(text, path, progress),
+        Ok(text) => parse_with(text, path, &Assets::beside(path), progress),
         Err(error) => {
             let (line, quote) = place::quote(&bytes, error.valid_up_to());
             Err(ReadError::at(path, line, quote, "not UTF-8 text"))
@@ -106,12 +109,23 @@ pub fn read_with_progress(path: &Path, progress: Progress<'_>) -> Result<Descrip
     }
 }
 
-/// Reads a scene from TOML text; `file` is named in messages, and mesh files are looked for beside it.
+/// Reads a scene from TOML text; `file` is named in messages, and meshes and images are looked for
+/// beside it.
 ///
 /// # Errors
 /// [`ReadError`] when the text does not describe a sound scene.
 pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
-    toml::parse(text, file, &mut |_, _| ())
+    parse_with(text, file, &Assets::beside(file), &mut |_, _| ())
+}
+
+/// The same, with the files that the scene names from elsewhere, telling how far each mesh file is.
+pub(super) fn parse_with(
+    text: &str,
+    file: &Path,
+    assets: &Assets,
+    progress: Progress<'_>,
+) -> Result<Description, ReadError> {
+    toml::parse(text, file, assets, progress)
 }
 
 /// The whole of a file that is no longer than `limit`.

@@ -22,7 +22,7 @@ use self::{
     corners::{Columns, NONE, Triple, Vertices},
     mtl::Library,
 };
-use super::{MAX_OBJ_BYTES, Progress, ReadError, image::Textures, lines::Lines, polygon};
+use super::{MAX_OBJ_BYTES, Progress, ReadError, assets::Assets, image::Images, lines::Lines, polygon};
 use crate::scene::{Material, Mesh, check};
 
 /// The most triangles of all mesh files together. A polygon may make one of every two bytes.
@@ -73,28 +73,46 @@ impl Model {
 
 /// Reads a file; what it takes is taken off the budget. Materials are only read when there is a place for textures.
 pub(super) fn read(
-    path: &Path,
-    textures: Option<&mut Textures>,
+    assets: &Assets,
+    file: &str,
+    images: Option<&mut Images<'_>>,
     budget: &mut Budget,
     progress: Progress<'_>,
 ) -> Result<Model, ReadError> {
-    read_lines(Lines::open(path, budget.bytes, progress)?, path, textures, budget)
+    let path = assets.path(file);
+    match assets {
+        Assets::Folder(_) => read_path(&path, images, budget, progress),
+        Assets::Builtin => {
+            let bytes = assets.read(file, budget.bytes)?;
+            let size = (budget.bytes, bytes.len() as u64);
+            read_lines(Lines::new(&bytes[..], &path, size, progress), &path, images, budget)
+        }
+    }
+}
+
+fn read_path(
+    path: &Path,
+    images: Option<&mut Images<'_>>,
+    budget: &mut Budget,
+    progress: Progress<'_>,
+) -> Result<Model, ReadError> {
+    read_lines(Lines::open(path, budget.bytes, progress)?, path, images, budget)
 }
 
 fn read_lines<R: Read>(
     mut lines: Lines<'_, R>,
     path: &Path,
-    textures: Option<&mut Textures>,
+    images: Option<&mut Images<'_>>,
     budget: &mut Budget,
 ) -> Result<Model, ReadError> {
-    let mut reader = Reader::new(path, textures.is_some(), budget.triangles);
+    let mut reader = Reader::new(path, images.is_some(), budget.triangles);
     while let Some((number, line)) = lines.next()? {
         reader.statement(&line, number).map_err(|(key, problem)| ReadError::at(path, number, key, problem))?;
     }
     budget.bytes -= lines.done();
     drop(lines);
     budget.triangles -= reader.triangles.len();
-    reader.model(textures, budget)
+    reader.model(images, budget)
 }
 
 /// Key and problem.
@@ -256,7 +274,7 @@ impl<'a> Reader<'a> {
         groups.libraries.extend(files.into_iter().map(|file| (file.to_owned(), line)));
     }
 
-    fn model(mut self, textures: Option<&mut Textures>, budget: &mut Budget) -> Result<Model, ReadError> {
+    fn model(mut self, images: Option<&mut Images<'_>>, budget: &mut Budget) -> Result<Model, ReadError> {
         let counts = [self.columns.positions.len(), self.columns.uvs.len(), self.columns.normals.len()];
         for ((name, count), (index, line)) in KINDS.into_iter().zip(counts).zip(self.largest) {
             if index > count as u64 {
@@ -274,8 +292,8 @@ impl<'a> Reader<'a> {
         for (first, count) in std::mem::take(&mut self.late) {
             self.divide(first, count);
         }
-        let (materials, by_triangle, bare) = match (self.groups, textures) {
-            (Some(groups), Some(textures)) => groups.materials(self.path, textures, budget)?,
+        let (materials, by_triangle, bare) = match (self.groups, images) {
+            (Some(groups), Some(images)) => groups.materials(self.path, images, budget)?,
             _ => (Vec::new(), Vec::new(), true),
         };
         let mesh = self.vertices.mesh(self.columns, self.triangles);
@@ -288,7 +306,7 @@ impl Groups {
     fn materials(
         mut self,
         path: &Path,
-        textures: &mut Textures,
+        images: &mut Images<'_>,
         budget: &mut Budget,
     ) -> Result<(Vec<Material>, Vec<u32>, bool), ReadError> {
         let mut library = Library::default();
@@ -314,7 +332,7 @@ impl Groups {
         let mut materials = Vec::new();
         let mut places = vec![0; self.names.len()];
         for (group, (name, line)) in self.names.iter().enumerate().filter(|(group, _)| used[*group]) {
-            let Some(material) = library.material(name, folder, textures)? else {
+            let Some(material) = library.material(name, folder, images)? else {
                 return Err(ReadError::at(path, *line, "usemtl", format_args!("no material {name:?}")));
             };
             places[group] = materials.len() as u32;

@@ -1,4 +1,4 @@
-use std::{fs, time::Instant};
+use std::{fs, sync::Arc, time::Instant};
 
 use super::*;
 use crate::scene::{Pigment, Texture};
@@ -20,10 +20,11 @@ impl Folder {
     }
 
     /// What reading `m.obj` gives, messages without the folder's own path.
-    fn model(&self) -> Result<(Model, Textures), String> {
-        let mut textures = Textures::new(Path::new(""));
-        read(&self.path("m.obj"), Some(&mut textures), &mut Budget::default(), &mut |_, _| ())
-            .map(|model| (model, textures))
+    fn model(&self) -> Result<(Model, Vec<Arc<Texture>>), String> {
+        let assets = Assets::beside(&self.path("m.obj"));
+        let mut images = Images::new(&assets);
+        read(&assets, "m.obj", Some(&mut images), &mut Budget::default(), &mut |_, _| ())
+            .map(|model| (model, images.textures))
             .map_err(|error| error.to_string().replace(&format!("{}/", self.0.path().display()), ""))
     }
 
@@ -189,7 +190,7 @@ fn every_fault_names_its_line() {
 #[test]
 fn limits_hold_for_all_files_together() {
     let f = Folder::new(&[("m.obj", b"v 0 0 0\nf 1 1 1\nf 1 1 1 1\n")]);
-    let go = |budget: &mut Budget| read(&f.path("m.obj"), None, budget, &mut |_, _| ()).map(|_| ());
+    let go = |budget: &mut Budget| read_path(&f.path("m.obj"), None, budget, &mut |_, _| ()).map(|_| ());
     let mut budget = Budget { bytes: 60, triangles: 5 };
     go(&mut budget).unwrap();
     assert_eq!((budget.bytes, budget.triangles), (60 - 26, 2));
@@ -207,7 +208,7 @@ fn limits_hold_for_all_files_together() {
 fn progress_runs_to_the_end() {
     let f = Folder::new(&[("m.obj", format!("v 0 0 0\nf 1 1 1\n{}", "# filler\n".repeat(400_000)).as_bytes())]);
     let mut seen = Vec::new();
-    read(&f.path("m.obj"), None, &mut Budget::default(), &mut |done, total| seen.push((done, total))).unwrap();
+    read_path(&f.path("m.obj"), None, &mut Budget::default(), &mut |done, total| seen.push((done, total))).unwrap();
     assert_eq!(seen.len(), 4);
     assert!(seen[0] == (0, 3_600_016) && seen.iter().all(|s| s.1 == 3_600_016) && seen.is_sorted());
 }
@@ -302,14 +303,14 @@ fn faults_of_materials_name_file_and_line() {
     }
     // Nobody asked for the materials.
     let f = Folder::new(&[("m.obj", obj.as_bytes())]);
-    assert!(read(&f.path("m.obj"), None, &mut Budget::default(), &mut |_, _| ()).unwrap().bare);
+    assert!(read_path(&f.path("m.obj"), None, &mut Budget::default(), &mut |_, _| ()).unwrap().bare);
 }
 
 #[test]
 fn textures_are_beside_their_library() {
     let mut picture = Vec::new();
-    let image = image::RgbImage::from_raw(2, 1, vec![255, 0, 0, 0, 0, 255]).unwrap();
-    image.write_to(&mut std::io::Cursor::new(&mut picture), image::ImageFormat::Png).unwrap();
+    let image = ::image::RgbImage::from_raw(2, 1, vec![255, 0, 0, 0, 0, 255]).unwrap();
+    image.write_to(&mut std::io::Cursor::new(&mut picture), ::image::ImageFormat::Png).unwrap();
     let f =
         Folder::new(&[("m.obj", format!("{SQUARE}mtllib lib/a.mtl\nusemtl x\nf 1 2 3\nusemtl y\nf 1 3 4").as_bytes())]);
     fs::create_dir_all(f.path("lib/maps")).unwrap();
@@ -321,7 +322,7 @@ fn textures_are_beside_their_library() {
     let pigments: Vec<Pigment> = model.materials.iter().map(|m| m.pigment).collect();
     assert_eq!(pigments, [0, 1].map(|texture| Pigment::Texture { texture, size: 1.0 }));
     let expected = Texture { width: 2, height: 1, texels: vec![[255, 0, 0], [0, 0, 255]] };
-    assert!(textures.images.len() == 2 && textures.images.iter().all(|t| **t == expected));
+    assert!(textures.len() == 2 && textures.iter().all(|t| **t == expected));
 }
 
 #[test]
@@ -405,10 +406,10 @@ fn spoil(text: &str, state: &mut u64) -> Vec<u8> {
 }
 
 /// Reads text as `m.obj`, from memory.
-fn read_text(text: &[u8], textures: Option<&mut Textures>) -> Result<Model, String> {
+fn read_text(text: &[u8], images: Option<&mut Images<'_>>) -> Result<Model, String> {
     let (path, mut budget, mut ignore) = (Path::new("m.obj"), Budget::default(), |_, _| ());
     let lines = Lines::new(text, path, (budget.bytes, text.len() as u64), &mut ignore);
-    read_lines(lines, path, textures, &mut budget).map_err(|error| error.to_string())
+    read_lines(lines, path, images, &mut budget).map_err(|error| error.to_string())
 }
 
 #[track_caller]
@@ -421,8 +422,9 @@ fn spoiled_files_are_read_or_refused() {
     let obj = "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\nusemtl a\n\
                f 1/1/1 2/2/1 3/1/2\nusemtl b\nf 1 2 3 4 5 6\nf 1//1 3//1 4//2\nf -1 -2 -3 1/1 2/2\n";
     let (mut state, mut sound, start) = (3, 0, Instant::now());
+    let assets = Assets::Builtin;
     for _ in 0..20_000 {
-        let model = read_text(&spoil(obj, &mut state), Some(&mut Textures::new(Path::new(""))));
+        let model = read_text(&spoil(obj, &mut state), Some(&mut Images::new(&assets)));
         let scene = model.map(|model| crate::scene::Description {
             meshes: vec![model.merge(0, |_| 0)],
             materials: vec![Material::default()],
@@ -446,13 +448,14 @@ fn spoiled_files_are_read_or_refused() {
 fn spoiled_materials_are_read_or_refused() {
     let mtl = "newmtl a\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 10\nillum 3\nnewmtl b\nd 0.5\nNi 1.5\nTr 0.5\nKd 0.5\n";
     let (mut state, mut sound) = (4, 0);
+    let assets = Assets::Builtin;
     for _ in 0..20_000 {
         let text = spoil(mtl, &mut state);
         let (path, mut ignore, mut library) = (Path::new("a.mtl"), |_, _| (), Library::default());
         let lines = Lines::new(&text[..], path, (1 << 20, text.len() as u64), &mut ignore);
         let read = library.read_lines(lines, path).map(|_| ());
-        let mut textures = Textures::new(Path::new(""));
-        let mut material = |name| library.material(name, Path::new(""), &mut textures);
+        let mut images = Images::new(&assets);
+        let mut material = |name| library.material(name, Path::new(""), &mut images);
         match read.and_then(|()| Ok([material("a")?, material("b")?])) {
             Ok(materials) => {
                 let materials = materials.into_iter().flatten().collect();

@@ -10,7 +10,10 @@ use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::{
-    Progress, ReadError, image, obj, place,
+    Progress, ReadError,
+    assets::Assets,
+    image::Images,
+    obj, place,
     strict::{Exactly, Table},
 };
 use crate::scene::{
@@ -237,12 +240,17 @@ struct MeshFile {
     material: Option<String>,
 }
 
-pub(super) fn parse(text: &str, file: &Path, progress: Progress<'_>) -> Result<Description, ReadError> {
+pub(super) fn parse(
+    text: &str,
+    file: &Path,
+    assets: &Assets,
+    progress: Progress<'_>,
+) -> Result<Description, ReadError> {
     let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
     let table = Deserializer::from(table);
     let scene = SceneFile::deserialize(table).map_err(|error| shape(text, file, &error))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    describe(scene, name, file.parent().unwrap_or(Path::new("")), progress)
+    describe(scene, name, assets, progress)
         .and_then(|description| check(&description).map(|()| description))
         .map_err(|Invalid { key, problem }| ReadError::at(file, place::line_of(text, &key), key, problem))
 }
@@ -273,17 +281,17 @@ fn shape(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
     ReadError::at(file, line, key, problem.as_deref().unwrap_or(message))
 }
 
-fn describe(scene: SceneFile, name: String, folder: &Path, progress: Progress<'_>) -> Result<Description, Invalid> {
+fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<'_>) -> Result<Description, Invalid> {
     let Table(CameraFile { eye, look_at, up, fov }) = scene.camera;
     let Table(SettingsFile { max_depth, attenuation, ambient }) = scene.settings;
     let lights = scene.light.into_iter().map(|Table(l)| Light { position: l.position.into(), power: l.power.into() });
-    let mut textures = image::Textures::new(folder);
-    let mut names = Names::new(scene.materials, &mut textures)?;
+    let mut images = Images::new(assets);
+    let mut names = Names::new(scene.materials, &mut images)?;
     let mut description = Description {
         name,
         camera: CameraDescription { eye: eye.into(), look_at: look_at.into(), up: up.into(), fov },
         settings: Settings { max_depth, attenuation, ambient: ambient.into() },
-        sky: sky(scene.sky.0, folder)?,
+        sky: sky(scene.sky.0, &mut images)?,
         lights: lights.collect(),
         ..Description::default()
     };
@@ -298,15 +306,15 @@ fn describe(scene: SceneFile, name: String, folder: &Path, progress: Progress<'_
     description.meshes = each("mesh", scene.mesh, |m| {
         let material = m.material.map(|name| names.find(Some(name))).transpose()?;
         // Materials that count for nothing need not be there.
-        let wanted = if material.is_none() { Some(&mut textures) } else { None };
-        let path = folder.join(&m.file);
-        let mut model = obj::read(&path, wanted, &mut budget, progress).map_err(|e| Fault("file", e.to_string()))?;
+        let wanted = if material.is_none() { Some(&mut images) } else { None };
+        let mut model =
+            obj::read(assets, &m.file, wanted, &mut budget, progress).map_err(|e| Fault("file", e.to_string()))?;
         place_mesh(&mut model.mesh, m.scale, m.rotation, m.translation)?;
         if let Some(material) = material {
             return Ok(Mesh { material, ..model.mesh });
         }
         let default = if model.bare { names.find(None)? } else { 0 };
-        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let file = Path::new(&m.file).file_name().unwrap_or_default().to_string_lossy();
         Ok(model.merge(default, |m| names.add(Material { name: format!("{file}:{}", m.name), ..m })))
     })?;
     let triangles = each("triangle", scene.triangle, |t| {
@@ -359,7 +367,7 @@ fn describe(scene: SceneFile, name: String, folder: &Path, progress: Progress<'_
         Ok(Fractal { center: f.center.into(), radius: f.radius, iterations: f.iterations, material })
     })?;
     description.materials = names.materials;
-    description.textures = textures.images;
+    description.textures = images.textures;
     Ok(description)
 }
 
@@ -378,7 +386,7 @@ fn each<F, P>(
     elements.into_iter().enumerate().map(one).collect()
 }
 
-fn sky(file: SkyFile, folder: &Path) -> Result<Sky, Invalid> {
+fn sky(file: SkyFile, images: &mut Images<'_>) -> Result<Sky, Invalid> {
     let SkyFile { color, gradient, image, rotation } = file;
     let given = usize::from(color.is_some()) + usize::from(gradient.is_some()) + usize::from(image.is_some());
     let invalid = |key: &str, problem: String| Invalid { key: format!("sky.{key}"), problem };
@@ -390,8 +398,7 @@ fn sky(file: SkyFile, folder: &Path) -> Result<Sky, Invalid> {
         return Err(invalid("rotation", "only goes with image".into()));
     }
     if let Some(file) = image {
-        let (width, height, texels) =
-            image::panorama(&folder.join(&file)).map_err(|error| invalid("image", error.to_string()))?;
+        let (width, height, texels) = images.panorama(&file).map_err(|error| invalid("image", error.to_string()))?;
         let dome = Dome { width, height, texels, rotation: rotation.unwrap_or(0.0) };
         return Ok(Sky::Dome(dome.into()));
     }
@@ -429,10 +436,7 @@ fn place_mesh(
     Ok(())
 }
 
-fn material(
-    (name, Table(file)): (String, Table<MaterialFile>),
-    textures: &mut image::Textures,
-) -> Result<Material, Invalid> {
+fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Images<'_>) -> Result<Material, Invalid> {
     let MaterialFile { color, checker, texture, texture_size, reflectance, transmission, .. } = file;
     let invalid =
         |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", check::key_part(&name)), problem };
@@ -447,7 +451,7 @@ fn material(
         (Some(c), ..) => Pigment::Color(c.into()),
         (_, Some(Table(c)), _) => Pigment::Checker { colors: c.colors.0.map(Vec3::from), size: c.size },
         (.., Some(file)) => {
-            let texture = textures.load(&file).map_err(|error| invalid("texture", error.to_string()))?;
+            let texture = images.texture(&file).map_err(|error| invalid("texture", error.to_string()))?;
             Pigment::Texture { texture, size: texture_size.unwrap_or(1.0) }
         }
         _ => Pigment::Color(Vec3::splat(0.8)),
@@ -468,8 +472,8 @@ struct Names {
 }
 
 impl Names {
-    fn new(materials: BTreeMap<String, Table<MaterialFile>>, textures: &mut image::Textures) -> Result<Self, Invalid> {
-        let materials = materials.into_iter().map(|m| material(m, textures)).collect::<Result<Vec<_>, _>>()?;
+    fn new(materials: BTreeMap<String, Table<MaterialFile>>, images: &mut Images<'_>) -> Result<Self, Invalid> {
+        let materials = materials.into_iter().map(|m| material(m, images)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { named: materials.len(), materials, default: None, repeats: HashMap::new() })
     }
 

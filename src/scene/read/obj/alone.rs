@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glam::{DVec3, Vec3};
 
-use super::{Budget, read};
+use super::{Budget, read_path};
 use crate::scene::{
     CameraDescription, Description, Light, Material, Mesh, Pigment, Plane, Settings, Sky, check,
-    read::{Progress, ReadError, image::Textures},
+    read::{Assets, Progress, ReadError, image::Images},
 };
 
 /// How far the camera is from the middle, in diagonals of the bounding box.
@@ -19,9 +19,9 @@ const AWAY: f64 = 1.15;
 /// The lamp's irradiance is the same at any distance, so that nothing depends on the mesh's size.
 pub(in crate::scene) fn alone(path: &Path, progress: Progress<'_>) -> Result<Description, ReadError> {
     let fault = |problem: String| ReadError::File { path: path.into(), problem };
-    // Textures are found by whole paths.
-    let mut textures = Textures::new(Path::new(""));
-    let model = read(path, Some(&mut textures), &mut Budget::default(), progress)?;
+    let assets = Assets::beside(path);
+    let mut images = Images::new(&assets);
+    let model = read_path(path, Some(&mut images), &mut Budget::default(), progress)?;
     let mut materials = vec![floor_material()];
     if model.bare {
         materials.push(Material::default());
@@ -49,7 +49,7 @@ pub(in crate::scene) fn alone(path: &Path, progress: Progress<'_>) -> Result<Des
         planes: vec![Plane { normal: Vec3::Y, distance: -floor as f32, material: 0 }],
         meshes: vec![mesh],
         materials,
-        textures: textures.images,
+        textures: images.textures,
         ..Description::default()
     };
     check(&description).map_err(|invalid| fault(invalid.to_string()))?;

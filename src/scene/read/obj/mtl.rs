@@ -24,7 +24,7 @@ use glam::Vec3;
 use super::{Budget, numbers};
 use crate::scene::{
     Material, Pigment,
-    read::{ReadError, image::Textures, lines::Lines},
+    read::{ReadError, image::Images, lines::Lines},
 };
 
 /// The materials of all libraries of an OBJ file. Where several have the same name, the first counts.
@@ -83,8 +83,8 @@ impl Library {
     }
 
     /// The material of a name, if there is one. Its texture is looked for beside its file, then in `folder`.
-    pub fn material(&self, name: &str, folder: &Path, textures: &mut Textures) -> Result<Option<Material>, ReadError> {
-        self.entries.get(name).map(|entry| entry.material(name, folder, textures)).transpose()
+    pub fn material(&self, name: &str, folder: &Path, images: &mut Images<'_>) -> Result<Option<Material>, ReadError> {
+        self.entries.get(name).map(|entry| entry.material(name, folder, images)).transpose()
     }
 }
 
@@ -129,7 +129,7 @@ impl Entry {
         Ok(())
     }
 
-    fn material(&self, name: &str, folder: &Path, textures: &mut Textures) -> Result<Material, ReadError> {
+    fn material(&self, name: &str, folder: &Path, images: &mut Images<'_>) -> Result<Material, ReadError> {
         let opaque = self.dissolve.or(self.transparency.map(|t| 1.0 - t)).unwrap_or(1.0).clamp(0.0, 1.0);
         let transmission = 1.0 - opaque;
         let shine = self.specular.map_or(0.0, |ks| ks.element_sum() / 3.0);
@@ -139,8 +139,8 @@ impl Entry {
             pigment: match &self.texture {
                 None => self.diffuse.map_or(plain.pigment, Pigment::Color),
                 Some((file, line)) => Pigment::Texture {
-                    texture: textures
-                        .load_at(self.find(file, folder))
+                    texture: images
+                        .texture_at(self.find(file, folder))
                         .map_err(|error| ReadError::at(&self.file, *line, "map_Kd", error))?,
                     size: 1.0,
                 },

@@ -1,0 +1,254 @@
+use super::*;
+use crate::scene::{Description, Pigment, Sky, read};
+use image::{ColorType, ExtendedColorType};
+use std::fs;
+
+#[path = "../../../examples/pictures/art.rs"]
+mod art;
+
+fn encoded(bytes: &[u8], width: u32, height: u32, color: impl Into<ExtendedColorType>, format: ImageFormat) -> Vec<u8> {
+    let mut to = Cursor::new(Vec::new());
+    image::write_buffer_with_format(&mut to, bytes, width, height, color, format).unwrap();
+    to.into_inner()
+}
+
+fn png(bytes: &[u8], width: u32, height: u32, color: ColorType) -> Vec<u8> {
+    encoded(bytes, width, height, color, ImageFormat::Png)
+}
+
+/// A smooth picture.
+fn slope(width: u32, height: u32) -> Vec<u8> {
+    (0..width * height).flat_map(|i| [i % width * 7, i / width * 9, 90].map(|c| c as u8)).collect()
+}
+
+fn exr(texels: &[[f32; 3]], width: u32) -> Vec<u8> {
+    let bytes = bytemuck::cast_slice(texels);
+    encoded(bytes, width, texels.len() as u32 / width, ExtendedColorType::Rgb32F, ImageFormat::OpenExr)
+}
+
+fn texture(bytes: &[u8]) -> Result<Texture, String> {
+    Images::new(&Assets::Builtin).rgb8(bytes)
+}
+
+fn panorama(bytes: &[u8]) -> Result<Panorama, String> {
+    Images::new(&Assets::Builtin).linear(bytes)
+}
+
+/// Reads a scene with a folder of files beside it.
+fn scene(text: &str, files: &[(&str, &[u8])]) -> Result<Description, String> {
+    let folder = tempfile::tempdir().unwrap();
+    files.iter().for_each(|(name, bytes)| fs::write(folder.path().join(name), bytes).unwrap());
+    let file = folder.path().join("s.toml");
+    fs::write(&file, text).unwrap();
+    let place = format!("{}/", folder.path().display());
+    read(&file).map_err(|error| error.to_string().replace(&place, ""))
+}
+
+#[test]
+fn every_kind_of_pixel_becomes_rgb_of_8_bits() {
+    let of = |bytes: &[u8], color| {
+        let t = texture(&png(bytes, 2, 1, color)).unwrap();
+        assert_eq!((t.width, t.height), (2, 1));
+        t.texels
+    };
+    assert_eq!(of(&[1, 2, 3, 4, 5, 6], ColorType::Rgb8), [[1, 2, 3], [4, 5, 6]]);
+    assert_eq!(of(&[1, 2, 3, 0, 4, 5, 6, 128], ColorType::Rgba8), [[1, 2, 3], [4, 5, 6]], "alpha is dropped");
+    assert_eq!(of(&[7, 200], ColorType::L8), [[7; 3], [200; 3]]);
+    assert_eq!(of(&[7, 0, 200, 9], ColorType::La8), [[7; 3], [200; 3]]);
+    let wide = |values: &[u16]| bytemuck::cast_slice::<u16, u8>(values).to_vec();
+    // 257 of the 65535 steps are one of the 255.
+    assert_eq!(
+        of(&wide(&[0, 257 * 100, 257 * 100 + 120, 257 * 100 + 140, 65535, 1]), ColorType::Rgb16),
+        [[0, 100, 100], [101, 255, 0]]
+    );
+    assert_eq!(of(&wide(&[257 * 9, 65535]), ColorType::L16), [[9; 3], [255; 3]]);
+}
+
+#[test]
+fn jpeg_is_read_as_nearly_as_it_keeps() {
+    let bytes = slope(24, 16);
+    let t = texture(&encoded(&bytes, 24, 16, ColorType::Rgb8, ImageFormat::Jpeg)).unwrap();
+    assert_eq!((t.width, t.height), (24, 16));
+    let off = t.texels.as_flattened().iter().zip(&bytes).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(off < Some(40), "{off:?}");
+    let grey = encoded(&[77; 64], 8, 8, ColorType::L8, ImageFormat::Jpeg);
+    assert!(texture(&grey).unwrap().texels.iter().flatten().all(|c| c.abs_diff(77) < 4));
+}
+
+#[test]
+fn panoramas_are_linear() {
+    let texels = [[0.5, 1e-3, 7e4], [0.0, 1.0, 2.0]];
+    assert_eq!(panorama(&exr(&texels, 1)).unwrap(), (1, 2, texels.to_vec()));
+    let (.., bytes) = panorama(&png(&[0, 128, 255], 1, 1, ColorType::Rgb8)).unwrap();
+    assert_eq!(bytes, [[0.0, linear_of_bytes()[128], 1.0]]);
+    assert_eq!(panorama(b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x40\x00\x82").unwrap(), (1, 1, vec![[2.0, 1.0, 0.0]]));
+}
+
+#[test]
+fn a_scene_finds_its_images_beside_itself() {
+    let text = "sky.image = 'sky.hdr'\nsky.rotation = 30\nmaterials.a.texture = 'a.png'\nmaterials.b.texture = 'a.png'\n\
+                materials.b.texture_size = 2.5\nmaterials.c.texture = 'c'\n";
+    let one = png(&[1, 2, 3], 1, 1, ColorType::Rgb8);
+    let other = encoded(&[0; 3], 1, 1, ColorType::Rgb8, ImageFormat::Jpeg);
+    let files: [(&str, &[u8]); 3] =
+        [("sky.hdr", b"#?RGBE\n\n-Y 1 +X 1\n\x80\x40\x00\x82"), ("a.png", &one), ("c", &other)];
+    let d = scene(text, &files).unwrap();
+    let pigments: Vec<_> = d.materials.iter().map(|m| m.pigment).collect();
+    let texture = |texture, size| Pigment::Texture { texture, size };
+    assert_eq!(pigments, [texture(0, 1.0), texture(0, 2.5), texture(1, 1.0)], "one file, one texture");
+    assert_eq!((d.textures.len(), &d.textures[0].texels[..]), (2, &[[1, 2, 3]][..]));
+    let Sky::Dome(dome) = d.sky else { panic!("a dome") };
+    assert_eq!((dome.width, dome.height, dome.rotation, &dome.texels[..]), (1, 1, 30.0, &[[2.0, 1.0, 0.0]][..]));
+}
+
+#[test]
+fn every_fault_is_a_line_with_the_place_and_the_file() {
+    let bad = exr(&[[1.0, 2.0, 3.0], [0.0, f32::NAN, 0.0]], 2);
+    let below = exr(&[[1.0, -2.0, 3.0]], 1);
+    let infinite = exr(&[[1.0, 1.0, f32::INFINITY]], 1);
+    let wide = png(&vec![0; 16_385], 16_385, 1, ColorType::L8);
+    let files: [(&str, &[u8]); 6] = [
+        ("bad.exr", &bad),
+        ("below.exr", &below),
+        ("infinite.exr", &infinite),
+        ("wide.png", &wide),
+        ("huge.hdr", b"#?RADIANCE\n\n-Y 16384 +X 16384\n"),
+        ("text", b"hello"),
+    ];
+    for (text, message) in [
+        ("\nmaterials.x.texture = 'text'", "s.toml:2: materials.x.texture: text: neither PNG nor JPEG"),
+        ("materials.x.texture = 'bad.exr'", "s.toml:1: materials.x.texture: bad.exr: neither PNG nor JPEG"),
+        ("materials.x.texture = 'none'", "s.toml:1: materials.x.texture: none: No such file or directory (os error 2)"),
+        ("materials.x.texture = '../'", "s.toml:1: materials.x.texture: ../: not a regular file"),
+        ("materials.x.texture = 'wide.png'", "s.toml:1: materials.x.texture: wide.png: Image size exceeds limit"),
+        ("sky.image = 'text'", "s.toml:1: sky.image: text: neither Radiance, OpenEXR, PNG nor JPEG"),
+        (
+            "sky.image = 'bad.exr'",
+            "s.toml:1: sky.image: bad.exr: column 1, row 0: must be finite and 0 or more, got [0, NaN, 0]",
+        ),
+        (
+            "sky.image = 'below.exr'",
+            "s.toml:1: sky.image: below.exr: column 0, row 0: must be finite and 0 or more, got [1, -2, 3]",
+        ),
+        (
+            "sky.image = 'infinite.exr'",
+            "s.toml:1: sky.image: infinite.exr: column 0, row 0: must be finite and 0 or more, got [1, 1, inf]",
+        ),
+        (
+            "sky.image = 'huge.hdr'",
+            "s.toml:1: sky.image: huge.hdr: 16384 × 16384: at most 67108864 pixels in all images, 67108864 left",
+        ),
+    ] {
+        assert_eq!(scene(text, &files).unwrap_err(), message);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let assets = Assets::Folder(folder.path().into());
+    let mut images = Images::new(&assets);
+    let refused = format!("{}: not a regular file", pipe.display());
+    assert_eq!(images.texture("pipe").unwrap_err().to_string(), refused);
+    assert_eq!(images.panorama("pipe").unwrap_err().to_string(), refused);
+    assert!(images.panorama("/dev/zero").unwrap_err().to_string().ends_with("not a regular file"));
+}
+
+#[test]
+fn what_an_image_takes_is_taken_off_for_the_next() {
+    let assets = Assets::Builtin;
+    let mut images = Images::new(&assets);
+    images.pixels_left = 5;
+    let small = png(&[0; 12], 2, 2, ColorType::Rgb8);
+    images.rgb8(&small).unwrap();
+    assert_eq!(images.rgb8(&small).unwrap_err(), "2 × 2: at most 67108864 pixels in all images, 1 left");
+    images.bytes_left = 10;
+    assert!(images.texture("textures/brick.png").unwrap_err().to_string().ends_with("brick.png: longer than 10 bytes"));
+}
+
+#[test]
+fn a_great_size_in_a_short_file_is_refused_at_once() {
+    let mut jpeg = encoded(&slope(8, 8), 8, 8, ColorType::Rgb8, ImageFormat::Jpeg);
+    let frame = jpeg.windows(2).position(|w| w == [0xff, 0xc0]).unwrap();
+    jpeg[frame + 5..frame + 9].copy_from_slice(&[0x40, 0, 0x40, 0]);
+    let message = texture(&jpeg).unwrap_err();
+    assert_eq!(message, "16384 × 16384: at most 67108864 pixels in all images, 67108864 left");
+    assert_eq!(panorama(b"#?RGBE\n\n-Y 1 +X 16385\n").unwrap_err(), "16385 × 1: at most 16384 pixels a side");
+    assert_eq!(panorama(b"#?RGBE\n\n-Y 0 +X 5\n").unwrap_err(), "no pixels: 5 × 0");
+    assert_eq!(panorama(b"#?RGBE\n\n-Y 8192 +X 8192\n").unwrap_err(), "ends too early");
+}
+
+#[test]
+fn no_damage_to_a_file_makes_it_panic() {
+    let floats: Vec<[f32; 3]> = (0..96).map(|i| [i as f32 / 9.0, 2.0, 0.25]).collect();
+    let mut runs = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 300\n".to_vec();
+    for _ in 0..2 {
+        runs.extend([9, 8, 7, 130, 1, 1, 1, 42, 1, 1, 1, 1]);
+        runs.extend([5, 5, 5, 5]);
+    }
+    let mut pixels = Vec::new();
+    let hdr: Vec<image::Rgb<f32>> = floats.iter().copied().map(image::Rgb).collect();
+    image::codecs::hdr::HdrEncoder::new(&mut pixels).encode(&hdr, 12, 8).unwrap();
+    let sound = [
+        png(&slope(9, 7), 9, 7, ColorType::Rgb8),
+        encoded(&slope(16, 9), 16, 9, ColorType::Rgb8, ImageFormat::Jpeg),
+        exr(&floats, 12),
+        pixels,
+        runs,
+    ];
+    let mut state = 1u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    for file in &sound {
+        panorama(file).unwrap();
+        for _ in 0..800 {
+            let mut bytes = file.clone();
+            for _ in 0..=random(3) {
+                let at = random(bytes.len());
+                match random(5) {
+                    0 => bytes.truncate(at.max(1)),
+                    1 => bytes[at] ^= 1 << random(8),
+                    2 => bytes[at] = [0, 1, 127, 128, 255][random(5)],
+                    3 => bytes.insert(at, random(256) as u8),
+                    _ => drop(bytes.remove(at)),
+                }
+                if bytes.is_empty() {
+                    break;
+                }
+            }
+            if let Ok((width, height, texels)) = panorama(&bytes) {
+                assert!(texels.len() == width * height && texels.len() as u64 <= MAX_IMAGE_PIXELS);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_built_in_images_are_what_their_generator_makes() {
+    let assets = Assets::Builtin;
+    let mut images = Images::new(&assets);
+    for (name, width, made) in [("textures/brick.png", 256, art::brick()), ("textures/globe.png", 512, art::globe())] {
+        let index = images.texture(name).unwrap();
+        let texture = &images.textures[index];
+        assert_eq!((texture.width, texture.texels.len()), (width, made.len()));
+        // A byte may be rounded otherwise where sines are.
+        let close = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).all(|k| a[k].abs_diff(b[k]) <= 1);
+        assert!(texture.texels.iter().zip(&made).all(close), "{name}: run `cargo run --example pictures`");
+    }
+    let (width, height, texels) = images.panorama("textures/dusk.hdr").unwrap();
+    assert_eq!((width, height), (256, 128));
+    for (read, made) in texels.iter().zip(art::dusk()) {
+        // Eight bits for the greatest channel.
+        let step = made.iter().copied().fold(0.0, f32::max) / 100.0;
+        assert!((0..3).all(|k| (read[k] - made[k]).abs() <= step), "{read:?}, not {made:?}");
+    }
+    assert_eq!(
+        images.texture("textures/none.png").unwrap_err().to_string(),
+        "scenes/textures/none.png: not among the built-in files"
+    );
+}
