@@ -1,11 +1,22 @@
 //! Scenes by name or path.
 
-use super::Failure;
+use super::{Failure, progress::Progress};
 use raypacket::scene::{self, Description, Scene};
+
+/// Mesh files from this length on get a bar.
+const LONG: u64 = 10 << 20;
 
 /// Reads a scene; the reader's message names file, line and key.
 pub fn load(name: &str) -> Result<Description, Failure> {
-    scene::load(name).map_err(Failure::input)
+    let mut bar = None;
+    let mut progress = |done: u64, total: u64| {
+        if done == 0 {
+            bar = (total >= LONG).then(Progress::new);
+        } else if let Some(bar) = &bar {
+            bar.set((done as f64 / total as f64) as f32);
+        }
+    };
+    scene::load_with_progress(name, &mut progress).map_err(Failure::input)
 }
 
 /// Reads all scenes, so that a fault in the last shows before work starts on the first.

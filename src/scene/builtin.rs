@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::read::{Assets, parse_with};
-use super::{Description, ReadError, read};
+use super::{Description, Progress, ReadError, read_obj, read_with_progress};
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -41,17 +41,26 @@ pub fn builtins() -> &'static [Builtin] {
 /// # Errors
 /// [`ReadError`] for a name that is not known, a format that is not supported, or a faulty file.
 pub fn load(name_or_path: &str) -> Result<Description, ReadError> {
+    load_with_progress(name_or_path, &mut |_, _| ())
+}
+
+/// As [`load`], telling how far each mesh file is.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with_progress(name_or_path: &str, progress: Progress<'_>) -> Result<Description, ReadError> {
     let path = Path::new(name_or_path);
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("toml") => read(path),
-        Some(format @ ("nff" | "obj")) => Err(unsupported(path, &format!("scenes in .{format} files"))),
+        Some("toml") => read_with_progress(path, progress),
+        Some("obj") => read_obj(path, progress),
+        Some(format @ "nff") => Err(unsupported(path, &format!("scenes in .{format} files"))),
         Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
-        None if path.is_file() => read(path),
+        None if path.is_file() => read_with_progress(path, progress),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {
             Some(builtin) => {
                 let file = format!("scenes/{}.toml", builtin.name);
-                parse_with(builtin.source, Path::new(&file), &Assets::Builtin)
+                parse_with(builtin.source, Path::new(&file), &Assets::Builtin, progress)
             }
             None => {
                 Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") })

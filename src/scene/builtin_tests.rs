@@ -99,7 +99,7 @@ fn what_cannot_be_loaded_is_said_in_one_line() {
         ("", ": no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
         ("a\nb", "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
         ("x.png", "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
-        ("bunny.obj", "bunny.obj: scenes in .obj files are not supported yet"),
+        ("bunny.obj", "bunny.obj: No such file or directory (os error 2)"),
         ("balls.NFF", "balls.NFF: scenes in .nff files are not supported yet"),
         ("Cargo.lock", "Cargo.lock: scenes in .lock files are not supported yet"),
         ("none.toml", "none.toml: No such file or directory (os error 2)"),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{ReadError, bytes_of, too_long};
+use super::{ReadError, bytes_of};
 
 /// The files of the built-in scenes, as the scenes name them.
 static BUILTIN: [(&str, &[u8]); 3] = [
@@ -42,7 +42,7 @@ impl Assets {
         }
         match BUILTIN.iter().find(|(known, _)| *known == name) {
             Some((_, bytes)) if bytes.len() as u64 <= limit => Ok(bytes.to_vec()),
-            Some(_) => Err(too_long(&path, limit)),
+            Some(_) => Err(ReadError::too_long(&path, limit)),
             None => Err(ReadError::File { path, problem: "not among the built-in files".into() }),
         }
     }

@@ -11,7 +11,7 @@ use std::{
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-use super::{ReadError, assets::Assets, one_line, radiance};
+use super::{ReadError, assets::Assets, bytes_of, one_line, radiance};
 use crate::{math::linear_of_bytes, scene::Texture};
 
 /// The most pixels of a side of an image.
@@ -51,11 +51,27 @@ impl<'a> Images<'a> {
     /// Of 16 bits the upper 8 are kept, rounded; grey becomes red, green and blue. An alpha channel is dropped: the
     /// colours show as they are stored, and the surface stays opaque.
     pub fn texture(&mut self, file: &str) -> Result<usize, ReadError> {
-        let path = self.assets.path(file);
+        self.texture_from(self.assets.path(file), |images| images.bytes(file))
+    }
+
+    /// The same for a file that a mesh names, by its whole path.
+    pub fn texture_at(&mut self, path: PathBuf) -> Result<usize, ReadError> {
+        self.texture_from(path.clone(), |images| {
+            let bytes = bytes_of(&path, images.bytes_left)?;
+            images.bytes_left -= bytes.len() as u64;
+            Ok(bytes)
+        })
+    }
+
+    fn texture_from(
+        &mut self,
+        path: PathBuf,
+        bytes: impl FnOnce(&mut Self) -> Result<Vec<u8>, ReadError>,
+    ) -> Result<usize, ReadError> {
         if let Some(index) = self.files.iter().position(|known| *known == path) {
             return Ok(index);
         }
-        let bytes = self.bytes(file)?;
+        let bytes = bytes(self)?;
         let texture = self.rgb8(&bytes).map_err(|problem| fault(&path, problem))?;
         self.textures.push(texture.into());
         self.files.push(path);

@@ -2,6 +2,7 @@
 
 mod assets;
 mod image;
+mod lines;
 mod obj;
 mod place;
 mod polygon;
@@ -19,13 +20,17 @@ use std::{
 use super::Description;
 pub(super) use assets::Assets;
 pub use image::{MAX_IMAGE_BYTES, MAX_IMAGE_PIXELS, MAX_IMAGE_SIDE};
+pub(super) use obj::alone as read_obj;
 
 /// The largest scene file that is read. Parsing takes up to about a hundred times the file's size in memory.
 pub const MAX_TOML_BYTES: u64 = 16 << 20;
 
-/// The most that is read from all mesh files of a scene together. Reading takes up to about twenty times as much
-/// memory.
-pub const MAX_OBJ_BYTES: u64 = 256 << 20;
+/// The most that is read from all mesh and material files of a scene together. Reading takes about as much memory as
+/// the file is long, and at worst, where every corner of a face is a vertex of its own, some fifteen times as much.
+pub const MAX_OBJ_BYTES: u64 = 1 << 30;
+
+/// Told, while a mesh file is read, how many bytes of it are done, from 0, and how many there are.
+pub type Progress<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// Longer keys and problems are cut: a message quotes what the file says, which may be anything.
 const MAX_QUOTE: usize = 300;
@@ -72,6 +77,10 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    fn too_long(path: &Path, limit: u64) -> Self {
+        Self::File { path: path.into(), problem: format!("longer than {limit} bytes") }
+    }
+
     fn at(file: &Path, line: usize, key: impl fmt::Display, problem: impl fmt::Display) -> Self {
         Self::At { file: file.into(), line, key: one_line(key), problem: one_line(problem) }
     }
@@ -82,9 +91,17 @@ impl ReadError {
 /// # Errors
 /// [`ReadError`] for a file that cannot be read or does not describe a sound scene.
 pub fn read(path: &Path) -> Result<Description, ReadError> {
+    read_with_progress(path, &mut |_, _| ())
+}
+
+/// As [`read`], telling how far each mesh file is.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with_progress(path: &Path, progress: Progress<'_>) -> Result<Description, ReadError> {
     let bytes = bytes_of(path, MAX_TOML_BYTES)?;
     match std::str::from_utf8(&bytes) {
-        Ok(text) => parse(text, path),
+        Ok(text) => parse_with(text, path, &Assets::beside(path), progress),
         Err(error) => {
             let (line, quote) = place::quote(&bytes, error.valid_up_to());
             Err(ReadError::at(path, line, quote, "not UTF-8 text"))
@@ -98,35 +115,38 @@ pub fn read(path: &Path) -> Result<Description, ReadError> {
 /// # Errors
 /// [`ReadError`] when the text does not describe a sound scene.
 pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
-    parse_with(text, file, &Assets::beside(file))
+    parse_with(text, file, &Assets::beside(file), &mut |_, _| ())
 }
 
-/// The same, with the files that the scene names from elsewhere.
-pub(super) fn parse_with(text: &str, file: &Path, assets: &Assets) -> Result<Description, ReadError> {
-    toml::parse(text, file, assets)
+/// The same, with the files that the scene names from elsewhere, telling how far each mesh file is.
+pub(super) fn parse_with(
+    text: &str,
+    file: &Path,
+    assets: &Assets,
+    progress: Progress<'_>,
+) -> Result<Description, ReadError> {
+    toml::parse(text, file, assets, progress)
 }
 
 /// The whole of a file that is no longer than `limit`.
 fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let (file, _) = open(path, limit)?;
+    let mut bytes = Vec::new();
+    // The file may grow.
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| ReadError::Io { path: path.into(), source })?;
+    if bytes.len() as u64 <= limit { Ok(bytes) } else { Err(ReadError::too_long(path, limit)) }
+}
+
+/// A regular file that is no longer than `limit`, and its length.
+fn open(path: &Path, limit: u64) -> Result<(File, u64), ReadError> {
     let io = |source| ReadError::Io { path: path.into(), source };
     // Asked before it is opened, since opening a pipe waits for somebody to write to it.
     if !std::fs::metadata(path).map_err(io)?.is_file() {
         return Err(ReadError::File { path: path.into(), problem: "not a regular file".into() });
     }
     let file = File::open(path).map_err(io)?;
-    let mut bytes = Vec::new();
-    // The length is asked first to spare the reading, and again afterwards since the file may grow.
-    if file.metadata().map_err(io)?.len() <= limit {
-        file.take(limit + 1).read_to_end(&mut bytes).map_err(io)?;
-        if bytes.len() as u64 <= limit {
-            return Ok(bytes);
-        }
-    }
-    Err(too_long(path, limit))
-}
-
-fn too_long(path: &Path, limit: u64) -> ReadError {
-    ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") }
+    let length = file.metadata().map_err(io)?.len();
+    if length <= limit { Ok((file, length)) } else { Err(ReadError::too_long(path, limit)) }
 }
 
 /// The text with control characters escaped, and cut when it is very long: safe to show on a terminal.

@@ -1,13 +1,16 @@
 //! The scene file format: TOML to [`Description`].
 
-use std::{collections::BTreeMap, path::Path};
+use std::{
+    collections::{BTreeMap, HashMap},
+    path::Path,
+};
 
 use glam::{Vec2, Vec3};
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::{
-    MAX_OBJ_BYTES, ReadError,
+    Progress, ReadError,
     assets::Assets,
     image::Images,
     obj, place,
@@ -237,12 +240,17 @@ struct MeshFile {
     material: Option<String>,
 }
 
-pub(super) fn parse(text: &str, file: &Path, assets: &Assets) -> Result<Description, ReadError> {
+pub(super) fn parse(
+    text: &str,
+    file: &Path,
+    assets: &Assets,
+    progress: Progress<'_>,
+) -> Result<Description, ReadError> {
     let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
     let table = Deserializer::from(table);
     let scene = SceneFile::deserialize(table).map_err(|error| shape(text, file, &error))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    describe(scene, name, assets)
+    describe(scene, name, assets, progress)
         .and_then(|description| check(&description).map(|()| description))
         .map_err(|Invalid { key, problem }| ReadError::at(file, place::line_of(text, &key), key, problem))
 }
@@ -273,7 +281,7 @@ fn shape(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
     ReadError::at(file, line, key, problem.as_deref().unwrap_or(message))
 }
 
-fn describe(scene: SceneFile, name: String, assets: &Assets) -> Result<Description, Invalid> {
+fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<'_>) -> Result<Description, Invalid> {
     let Table(CameraFile { eye, look_at, up, fov }) = scene.camera;
     let Table(SettingsFile { max_depth, attenuation, ambient }) = scene.settings;
     let lights = scene.light.into_iter().map(|Table(l)| Light { position: l.position.into(), power: l.power.into() });
@@ -294,12 +302,20 @@ fn describe(scene: SceneFile, name: String, assets: &Assets) -> Result<Descripti
         let material = names.find(s.material)?;
         Ok(Sphere { center: s.center.into(), radius: s.radius, sides: Sides::Both, material })
     })?;
-    let mut budget = MAX_OBJ_BYTES;
+    let mut budget = obj::Budget::default();
     description.meshes = each("mesh", scene.mesh, |m| {
-        let material = names.find(m.material)?;
-        let mut mesh = obj::read(assets, &m.file, &mut budget).map_err(|e| Fault("file", e.to_string()))?;
-        place_mesh(&mut mesh, m.scale, m.rotation, m.translation)?;
-        Ok(Mesh { material, ..mesh })
+        let material = m.material.map(|name| names.find(Some(name))).transpose()?;
+        // Materials that count for nothing need not be there.
+        let wanted = if material.is_none() { Some(&mut images) } else { None };
+        let mut model =
+            obj::read(assets, &m.file, wanted, &mut budget, progress).map_err(|e| Fault("file", e.to_string()))?;
+        place_mesh(&mut model.mesh, m.scale, m.rotation, m.translation)?;
+        if let Some(material) = material {
+            return Ok(Mesh { material, ..model.mesh });
+        }
+        let default = if model.bare { names.find(None)? } else { 0 };
+        let file = Path::new(&m.file).file_name().unwrap_or_default().to_string_lossy();
+        Ok(model.merge(default, |m| names.add(Material { name: format!("{file}:{}", m.name), ..m })))
     })?;
     let triangles = each("triangle", scene.triangle, |t| {
         let corners = t.vertices.0.map(Vec3::from);
@@ -445,16 +461,36 @@ fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Ima
     Ok(Material { name, pigment, reflectance, transmission, ior, absorption, additive: false, specular, shininess })
 }
 
-/// The materials, sorted by name, and the default after them where it is used and not among them.
+/// The materials: first those of the file, sorted by name, then those of mesh files and the default, where it is
+/// used and not among them.
 struct Names {
     materials: Vec<Material>,
     named: usize,
+    default: Option<usize>,
+    /// How often mesh files gave a name.
+    repeats: HashMap<String, usize>,
 }
 
 impl Names {
     fn new(materials: BTreeMap<String, Table<MaterialFile>>, images: &mut Images<'_>) -> Result<Self, Invalid> {
         let materials = materials.into_iter().map(|m| material(m, images)).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { named: materials.len(), materials })
+        Ok(Self { named: materials.len(), materials, default: None, repeats: HashMap::new() })
+    }
+
+    /// Adds the material of a mesh file; a name that is taken gets a number.
+    fn add(&mut self, material: Material) -> usize {
+        let Material { name: wanted, .. } = &material;
+        let name = loop {
+            let repeats = self.repeats.entry(wanted.clone()).or_insert(0);
+            *repeats += 1;
+            let name = if *repeats == 1 { wanted.clone() } else { format!("{wanted}#{repeats}") };
+            let named = self.materials[..self.named].binary_search_by(|m| m.name.cmp(&name)).is_ok();
+            if !named && (name == *wanted || !self.repeats.contains_key(&name)) {
+                break name;
+            }
+        };
+        self.materials.push(Material { name, ..material });
+        self.materials.len() - 1
     }
 
     fn find(&mut self, name: Option<String>) -> Result<usize, Fault> {
@@ -462,10 +498,11 @@ impl Names {
         match self.materials[..self.named].binary_search_by(|m| m.name.as_str().cmp(wanted)) {
             Ok(index) => Ok(index),
             Err(_) if wanted == DEFAULT_MATERIAL => {
-                if self.materials.len() == self.named {
-                    self.materials.push(Material { name: wanted.into(), ..Material::default() });
-                }
-                Ok(self.named)
+                let materials = &mut self.materials;
+                Ok(*self.default.get_or_insert_with(|| {
+                    materials.push(Material { name: wanted.into(), ..Material::default() });
+                    materials.len() - 1
+                }))
             }
             Err(_) => Err(Fault("material", self.missing(wanted))),
         }
