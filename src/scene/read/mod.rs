@@ -3,6 +3,7 @@
 mod image;
 mod obj;
 mod place;
+mod polygon;
 mod strict;
 mod toml;
 
