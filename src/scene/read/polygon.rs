@@ -76,9 +76,12 @@ fn convex(points: &[DVec2]) -> bool {
 }
 
 /// How readily a corner is clipped; each step is taken only when no corner is left that passes the one before.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
+#[derive(Clone, Copy)]
 enum Care {
-    /// An ear, or a corner without area where the outline turns back.
+    /// Without area: a repeated corner, or one where the outline turns back. First, since a new edge nearby may take
+    /// from it by rounding what shows it to be one.
+    Spike,
+    /// An ear.
     Ear,
     /// Its triangle may touch other corners, but not hold any.
     Touching,
@@ -88,7 +91,7 @@ enum Care {
     Any,
 }
 
-const CARES: [Care; 4] = [Care::Ear, Care::Touching, Care::Convex, Care::Any];
+const CARES: [Care; 5] = [Care::Spike, Care::Ear, Care::Touching, Care::Convex, Care::Any];
 
 struct Clipper {
     points: Vec<DVec2>,
@@ -163,13 +166,13 @@ impl Clipper {
         let corner @ [ia, _, ic] = self.corner(i);
         let [a, b, c] = self.at(corner);
         let turn = area(a, b, c);
-        if care == Care::Any || (turn == 0.0 && (a == b || b == c || (a - b).dot(c - b) > 0.0)) {
-            return true;
-        }
-        if care == Care::Convex {
-            return turn >= 0.0;
-        }
-        let touching = care == Care::Touching;
+        let touching = match care {
+            Care::Spike => return turn == 0.0 && (a == b || b == c || (a - b).dot(c - b) > 0.0),
+            Care::Ear => false,
+            Care::Touching => true,
+            Care::Convex => return turn >= 0.0,
+            Care::Any => return true,
+        };
         // The new edge has to leave its ends towards the inside. Where those are reflex it does.
         let [before, _, _] = self.at(self.corner(ia));
         let [_, _, after] = self.at(self.corner(ic));
@@ -193,7 +196,7 @@ impl Clipper {
     }
 }
 
-fn enqueue(waiting: &mut [VecDeque<u32>; 4], waits: &mut [u8], care: usize, i: u32) {
+fn enqueue(waiting: &mut [VecDeque<u32>; CARES.len()], waits: &mut [u8], care: usize, i: u32) {
     if waits[i as usize] & (1 << care) == 0 {
         waits[i as usize] |= 1 << care;
         waiting[care].push_back(i);
