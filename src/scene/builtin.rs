@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Description, ReadError, parse, read};
+use super::{Description, ReadError, parse, read, read_nff};
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +21,12 @@ macro_rules! builtin {
     };
 }
 
-static BUILTINS: [Builtin; 4] = [
+static BUILTINS: [Builtin; 5] = [
     builtin!("classic", "mirrors and coloured spheres on a checkerboard, under two coloured lights"),
     builtin!("flake", "a sphereflake: 7,381 partly mirrored spheres on a floor"),
     builtin!("hall", "spheres between two facing mirrors, twelve reflections deep"),
     builtin!("cosmos", "radii and distances from 1e-3 to 1e6: pebbles, planets and moons"),
+    builtin!("lattice", "a diamond crystal of 265 spheres and 460 cylinders over a mirror"),
 ];
 
 /// The built-in scenes.
@@ -44,7 +45,8 @@ pub fn load(name_or_path: &str) -> Result<Description, ReadError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("toml") => read(path),
-        Some(format @ ("nff" | "obj")) => Err(unsupported(path, &format!("scenes in .{format} files"))),
+        Some("nff") => read_nff(path, &mut |_, _| ()),
+        Some(format @ "obj") => Err(unsupported(path, &format!("scenes in .{format} files"))),
         Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
         None if path.is_file() => read(path),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {

@@ -1,6 +1,7 @@
 //! From a file to a [`Description`]; every fault is one line that names the file, the line and the key.
 
 mod image;
+mod nff;
 mod obj;
 mod place;
 mod polygon;
@@ -22,6 +23,12 @@ pub const MAX_TOML_BYTES: u64 = 16 << 20;
 /// The most that is read from all mesh files of a scene together. Reading takes up to about twenty times as much
 /// memory.
 pub const MAX_OBJ_BYTES: u64 = 256 << 20;
+
+/// The largest NFF file that is read. Reading takes up to about ten times its size in memory.
+pub const MAX_NFF_BYTES: u64 = 256 << 20;
+
+/// Told, while a mesh file is read, how many bytes of it are done, from 0, and how many there are.
+pub type Progress<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// Longer keys and problems are cut: a message quotes what the file says, which may be anything.
 const MAX_QUOTE: usize = 300;
@@ -68,6 +75,10 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    fn too_long(path: &Path, limit: u64) -> Self {
+        Self::File { path: path.into(), problem: format!("longer than {limit} bytes") }
+    }
+
     fn at(file: &Path, line: usize, key: impl fmt::Display, problem: impl fmt::Display) -> Self {
         Self::At { file: file.into(), line, key: one_line(key), problem: one_line(problem) }
     }
@@ -96,23 +107,33 @@ pub fn parse(text: &str, file: &Path) -> Result<Description, ReadError> {
     toml::parse(text, file)
 }
 
+/// Reads a scene in Eric Haines' Neutral File Format, telling how far it is.
+///
+/// # Errors
+/// [`ReadError`] for a file that cannot be read or does not describe a sound scene.
+pub fn read_nff(path: &Path, progress: Progress<'_>) -> Result<Description, ReadError> {
+    nff::read(path, progress)
+}
+
 /// The whole of a file that is no longer than `limit`.
 fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let (file, _) = open(path, limit)?;
+    let mut bytes = Vec::new();
+    // The file may grow.
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| ReadError::Io { path: path.into(), source })?;
+    if bytes.len() as u64 <= limit { Ok(bytes) } else { Err(ReadError::too_long(path, limit)) }
+}
+
+/// A regular file that is no longer than `limit`, and its length.
+fn open(path: &Path, limit: u64) -> Result<(File, u64), ReadError> {
     let io = |source| ReadError::Io { path: path.into(), source };
     // Asked before it is opened, since opening a pipe waits for somebody to write to it.
     if !std::fs::metadata(path).map_err(io)?.is_file() {
         return Err(ReadError::File { path: path.into(), problem: "not a regular file".into() });
     }
     let file = File::open(path).map_err(io)?;
-    let mut bytes = Vec::new();
-    // The length is asked first to spare the reading, and again afterwards since the file may grow.
-    if file.metadata().map_err(io)?.len() <= limit {
-        file.take(limit + 1).read_to_end(&mut bytes).map_err(io)?;
-        if bytes.len() as u64 <= limit {
-            return Ok(bytes);
-        }
-    }
-    Err(ReadError::File { path: path.into(), problem: format!("longer than {limit} bytes") })
+    let length = file.metadata().map_err(io)?.len();
+    if length <= limit { Ok((file, length)) } else { Err(ReadError::too_long(path, limit)) }
 }
 
 /// The text with control characters escaped, and cut when it is very long: safe to show on a terminal.
