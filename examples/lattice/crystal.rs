@@ -98,12 +98,12 @@ const HEAD: &str = r#"# lattice: a diamond crystal, 265 atoms and 460 bonds, ove
 # Made by `cargo run --example lattice`; edit a copy, not this file.
 
 # Tables are written as dotted keys here, so that the long lists can come last.
-camera.eye = [2.6, 3.6, 9.2]
-camera.look_at = [0.0, 1.95, 0.0]
-camera.fov = 36
+camera.eye = [2.8, 2.9, 9.2]
+camera.look_at = [0.0, 1.75, 0.0]
+camera.fov = 35
 settings.max_depth = 6
-settings.ambient = [0.05, 0.055, 0.07]
-sky.gradient = [[0.16, 0.15, 0.2], [0.1, 0.22, 0.42]]
+settings.ambient = [0.09, 0.1, 0.12]
+sky.gradient = [[0.3, 0.24, 0.2], [0.06, 0.16, 0.4]]
 
 light = [
   { position = [5, 9, 6], power = [1250, 1150, 1000] },  # key, warm
