@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::read::{Assets, parse_with};
-use super::{Description, Progress, ReadError, read_obj, read_with_progress};
+use super::{Description, Progress, ReadError, read_nff, read_obj, read_with_progress};
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -22,11 +22,12 @@ macro_rules! builtin {
     };
 }
 
-static BUILTINS: [Builtin; 4] = [
+static BUILTINS: [Builtin; 5] = [
     builtin!("classic", "mirrors and coloured spheres on a checkerboard, under two coloured lights"),
     builtin!("flake", "a sphereflake: 7,381 partly mirrored spheres on a floor"),
     builtin!("hall", "spheres between two facing mirrors, twelve reflections deep"),
     builtin!("cosmos", "radii and distances from 1e-3 to 1e6: pebbles, planets and moons"),
+    builtin!("lattice", "a diamond crystal of 265 spheres and 460 cylinders over a mirror"),
 ];
 
 /// The built-in scenes.
@@ -54,7 +55,7 @@ pub fn load_with_progress(name_or_path: &str, progress: Progress<'_>) -> Result<
     match extension.as_deref() {
         Some("toml") => read_with_progress(path, progress),
         Some("obj") => read_obj(path, progress),
-        Some(format @ "nff") => Err(unsupported(path, &format!("scenes in .{format} files"))),
+        Some("nff") => read_nff(path, progress),
         Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
         None if path.is_file() => read_with_progress(path, progress),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {

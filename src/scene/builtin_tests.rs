@@ -4,6 +4,9 @@ use crate::scene::{Pigment, Sphere};
 #[path = "../../examples/sphereflake/flake.rs"]
 mod flake;
 
+#[path = "../../examples/lattice/crystal.rs"]
+mod crystal;
+
 fn scene(name: &str) -> Description {
     load(name).unwrap()
 }
@@ -93,14 +96,48 @@ fn cosmos_spans_nine_orders_of_magnitude() {
 }
 
 #[test]
+fn lattice_is_what_its_generator_makes() {
+    let source = builtins().iter().find(|b| b.name == "lattice").unwrap().source;
+    assert!(source == crystal::toml(), "run `cargo run --example lattice > scenes/lattice.toml`");
+}
+
+#[test]
+fn lattice_is_a_diamonds() {
+    let lattice = scene("lattice");
+    assert_eq!((lattice.spheres.len(), lattice.cylinders.len(), lattice.planes.len()), (265, 460, 1));
+    let mut bonds = vec![Vec::new(); lattice.spheres.len()];
+    for c in &lattice.cylinders {
+        let ends = [(c.base, c.apex), (c.apex, c.base)];
+        for (end, other) in ends {
+            let atom = lattice.spheres.iter().position(|s| s.center == end).expect("a bond ends in an atom");
+            bonds[atom].push((other - end).as_dvec3().normalize());
+        }
+        assert!((c.base.distance(c.apex) - 0.22 * 3.0_f32.sqrt()).abs() < 1e-5);
+    }
+    for directions in &bonds {
+        assert!((2..=4).contains(&directions.len()));
+        for (i, a) in directions.iter().enumerate() {
+            for b in &directions[..i] {
+                assert!((a.dot(*b) + 1.0 / 3.0).abs() < 1e-5, "the angle of a tetrahedron");
+            }
+        }
+    }
+    // Only the octahedron's faces and edges cut bonds off.
+    let whole = bonds.iter().filter(|b| b.len() == 4).count();
+    assert!(whole * 2 > bonds.len(), "{whole} of {}", bonds.len());
+    let lowest = lattice.spheres.iter().map(|s| s.center.y - s.radius).fold(f32::INFINITY, f32::min);
+    assert!(lowest.abs() < 1e-5, "it stands on the floor, not in it: {lowest}");
+}
+
+#[test]
 fn what_cannot_be_loaded_is_said_in_one_line() {
     for (name, message) in [
-        ("nowhere", "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
-        ("", ": no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
-        ("a\nb", "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
-        ("x.png", "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos)"),
+        ("nowhere", "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
+        ("", ": no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
+        ("a\nb", "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
+        ("x.png", "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
         ("bunny.obj", "bunny.obj: No such file or directory (os error 2)"),
-        ("balls.NFF", "balls.NFF: scenes in .nff files are not supported yet"),
+        ("balls.NFF", "balls.NFF: No such file or directory (os error 2)"),
         ("Cargo.lock", "Cargo.lock: scenes in .lock files are not supported yet"),
         ("none.toml", "none.toml: No such file or directory (os error 2)"),
     ] {

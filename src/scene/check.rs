@@ -78,11 +78,12 @@ fn camera(description: &Description) -> Result<(), Invalid> {
     rule(point(camera.look_at), || "camera.look_at".into())?;
     rule(require(camera.look_at != camera.eye, || "must differ from camera.eye".into()), || "camera.look_at".into())?;
     rule(direction(camera.up), || "camera.up".into())?;
-    let fov = camera.fov;
-    rule(
-        require((MIN_FOV..180.0).contains(&fov), || format!("must be at least {MIN_FOV} and below 180, got {fov}")),
-        || "camera.fov".into(),
-    )
+    rule(fov(camera.fov), || "camera.fov".into())
+}
+
+/// A field of view in degrees.
+pub(super) fn fov(fov: f32) -> Result<(), String> {
+    require((MIN_FOV..180.0).contains(&fov), || format!("must be at least {MIN_FOV} and below 180, got {fov}"))
 }
 
 fn settings(description: &Description) -> Result<(), Invalid> {
@@ -117,7 +118,7 @@ fn image(width: usize, height: usize, texels: usize) -> Result<(), String> {
     require(all, || format!("no image of {width} × {height}"))
 }
 
-fn surface(material: &Material, textures: usize) -> Result<(), Invalid> {
+pub(super) fn surface(material: &Material, textures: usize) -> Result<(), Invalid> {
     let key = |field: &str| format!("materials.{}.{field}", key_part(&material.name));
     match &material.pigment {
         Pigment::Color(c) => rule(color(*c), || key("color"))?,
@@ -217,11 +218,7 @@ fn bodies_of(description: &Description) -> Result<(), Invalid> {
         rule(axis(c.base, c.apex), || format!("cone[{i}].apex"))?;
         rule(place(c.base), || format!("cone[{i}].base"))?;
         for (radius, name) in [(c.base_radius, "base_radius"), (c.apex_radius, "apex_radius")] {
-            let ending = radius == 0.0 || size(radius).is_ok();
-            rule(
-                require(ending, || format!("must be 0, or {MIN_RADIUS:e} to {MAX_BODY_LENGTH:e}, got {radius}")),
-                || format!("cone[{i}].{name}"),
-            )?;
+            rule(end_radius(radius), || format!("cone[{i}].{name}"))?;
         }
         rule(
             require(c.base_radius != c.apex_radius, || "must differ from base_radius; that is a cylinder".into()),
@@ -286,7 +283,7 @@ fn triangles(index: usize, mesh: &Mesh) -> Result<(), Invalid> {
 }
 
 /// A place in the world.
-fn point(p: Vec3) -> Result<(), String> {
+pub(super) fn point(p: Vec3) -> Result<(), String> {
     within(p, MAX_LENGTH)
 }
 
@@ -303,7 +300,7 @@ pub(super) fn triangle(corners: [Vec3; 3]) -> Result<(), String> {
 }
 
 /// Where a quad or body is.
-fn place(p: Vec3) -> Result<(), String> {
+pub(super) fn place(p: Vec3) -> Result<(), String> {
     within(p, MAX_BODY_LENGTH)
 }
 
@@ -316,7 +313,7 @@ fn area(u: Vec3, v: Vec3) -> Result<(), String> {
 }
 
 /// The end of an axis that starts at `base`.
-fn axis(base: Vec3, apex: Vec3) -> Result<(), String> {
+pub(super) fn axis(base: Vec3, apex: Vec3) -> Result<(), String> {
     place(apex)?;
     let length = (apex.as_dvec3() - base.as_dvec3()).length();
     require(length >= f64::from(MIN_RADIUS), || {
@@ -328,6 +325,12 @@ fn size(x: f32) -> Result<(), String> {
     positive(x)?;
     let fits = (MIN_RADIUS..=MAX_BODY_LENGTH).contains(&x);
     require(fits, || format!("must be {MIN_RADIUS:e} to {MAX_BODY_LENGTH:e}, got {x:e}"))
+}
+
+/// The radius at an end of a cone.
+pub(super) fn end_radius(radius: f32) -> Result<(), String> {
+    let ending = radius == 0.0 || size(radius).is_ok();
+    require(ending, || format!("must be 0, or {MIN_RADIUS:e} to {MAX_BODY_LENGTH:e}, got {radius}"))
 }
 
 fn angles(v: Vec3) -> Result<(), String> {
@@ -346,7 +349,7 @@ fn within(p: Vec3, most: f32) -> Result<(), String> {
     })
 }
 
-fn direction(v: Vec3) -> Result<(), String> {
+pub(super) fn direction(v: Vec3) -> Result<(), String> {
     require(v.is_finite(), || format!("must be finite, got {}", triple(v)))?;
     require(v != Vec3::ZERO, || "must not be zero".into())
 }
@@ -359,7 +362,7 @@ fn offset(normal: Vec3, distance: f32) -> Result<(), String> {
     })
 }
 
-fn color(c: Vec3) -> Result<(), String> {
+pub(super) fn color(c: Vec3) -> Result<(), String> {
     require(c.is_finite() && c.min_element() >= 0.0, || format!("must be finite and 0 or more, got {}", triple(c)))
 }
 
@@ -368,7 +371,7 @@ fn positive(x: f32) -> Result<(), String> {
     require(x.is_finite(), || format!("must be finite, got {x}"))
 }
 
-fn length(x: f32) -> Result<(), String> {
+pub(super) fn length(x: f32) -> Result<(), String> {
     positive(x)?;
     require((MIN_RADIUS..=MAX_LENGTH).contains(&x), || format!("must be {MIN_RADIUS:e} to {MAX_LENGTH:e}, got {x:e}"))
 }

@@ -3,6 +3,7 @@
 mod assets;
 mod image;
 mod lines;
+mod nff;
 mod obj;
 mod place;
 mod polygon;
@@ -31,6 +32,9 @@ pub const MAX_OBJ_BYTES: u64 = 1 << 30;
 
 /// Told, while a mesh file is read, how many bytes of it are done, from 0, and how many there are.
 pub type Progress<'a> = &'a mut dyn FnMut(u64, u64);
+
+/// The largest NFF file that is read. Reading takes up to about ten times its size in memory.
+pub const MAX_NFF_BYTES: u64 = 256 << 20;
 
 /// Longer keys and problems are cut: a message quotes what the file says, which may be anything.
 const MAX_QUOTE: usize = 300;
@@ -126,6 +130,14 @@ pub(super) fn parse_with(
     progress: Progress<'_>,
 ) -> Result<Description, ReadError> {
     toml::parse(text, file, assets, progress)
+}
+
+/// Reads a scene in Eric Haines' Neutral File Format, telling how far it is.
+///
+/// # Errors
+/// [`ReadError`] for a file that cannot be read or does not describe a sound scene.
+pub fn read_nff(path: &Path, progress: Progress<'_>) -> Result<Description, ReadError> {
+    nff::read(path, progress)
 }
 
 /// The whole of a file that is no longer than `limit`.
