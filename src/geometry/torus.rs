@@ -164,7 +164,13 @@ impl Primitives for Tori {
     #[inline(always)]
     fn record(&self, i: usize) -> TorusRecord {
         let (major, minor) = (self.major[i], self.minor[i]);
-        TorusRecord { center: self.center(i).into(), axes: self.axes[i], major, kappa: minor / major, near: self.near[i] }
+        TorusRecord {
+            center: self.center(i).into(),
+            axes: self.axes[i],
+            major,
+            kappa: minor / major,
+            near: self.near[i],
+        }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &TorusRecord, origin: Vec3<L>) -> SeenTorus<L> {

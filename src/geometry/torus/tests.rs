@@ -8,7 +8,7 @@ use wide::{f32x4, f32x8};
 const U: f64 = ROUNDOFF as f64;
 
 /// r / R of the tori that are tested; 1 is a horn torus.
-const KAPPAS: [f32; 7] = [1.0, 0.999, 0.7, 0.5, 0.25, 0.01, 1e-3];
+const KAPPAS: [f32; 8] = [1.0, 0.999, 0.7, 0.5, 0.25, 0.01, 1e-3, 1e-5];
 
 /// Marsaglia's xorshift: the same numbers everywhere.
 struct Rng(u64);
@@ -85,6 +85,12 @@ impl Case {
         (outward.length() - minor, outward.normalize())
     }
 
+    /// The least radius of curvature at a point of the surface: across the tube, or around the axis.
+    fn curvature_radius(&self, point: V) -> f64 {
+        let q = point.as_dvec3() - self.it.center.as_dvec3();
+        self.radii()[1].min(q.reject_from_normalized(self.it.axis.as_dvec3().normalize()).length())
+    }
+
     /// A point of the surface and its normal, along the torus's own axes.
     fn random_point(&self, rng: &mut Rng) -> (DVec3, DVec3) {
         let [major, minor] = self.radii();
@@ -96,7 +102,14 @@ impl Case {
 }
 
 const FAMILIES: [&str; 9] = [
-    "random", "tangent", "along the axis", "through the axis", "equator", "touching the equator", "from inside", "far",
+    "random",
+    "tangent",
+    "along the axis",
+    "through the axis",
+    "equator",
+    "touching the equator",
+    "from inside",
+    "far",
     "from the centre",
 ];
 
@@ -198,12 +211,11 @@ fn at_the_horn(case: &Case, point: DVec3, most: f64) -> bool {
 fn agrees_with_the_reference() {
     let mut rng = Rng(2);
     let mut looked_into = [0; FAMILIES.len()];
-    let mut worst = 0.0f64;
     let mut hits = 0;
     for case in cases() {
         let size: f64 = case.radii().iter().sum();
         for (family, name) in FAMILIES.iter().enumerate() {
-            for _ in 0..40 {
+            for _ in 0..20 {
                 let (origin, direction) = ray(&case, family, &mut rng);
                 let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
                 let (t, exact) = (case.hit(origin, direction), case.exact(o, d));
@@ -213,7 +225,6 @@ fn agrees_with_the_reference() {
                     hits += 1;
                     let p = o + d * f64::from(t);
                     let off = case.off(p).0.abs() / U / bound;
-                    worst = worst.max(off);
                     assert!(off <= 1.0, "{name}: {:?} {origin} {direction}: {t} is {off} bounds off", case.it);
                     let cosine = case.off(p).1.dot(d).abs();
                     near = exact.is_some_and(|exact| {
@@ -228,7 +239,238 @@ fn agrees_with_the_reference() {
             }
         }
     }
-    eprintln!("worst {worst} bounds, {hits} hits, looked into {looked_into:?}");
-    assert!(hits > 15_000, "{hits}");
-    assert!(looked_into[0] < 400, "{looked_into:?}");
+    assert!(hits > 10_000, "{hits}");
+    // Only what touches the surface is ever in doubt.
+    assert!(looked_into[0] + looked_into[3] + looked_into[6] + looked_into[8] < 10, "{looked_into:?}");
+}
+
+/// Answers of a packet kernel, as bits; NaN rays among them.
+fn bits<L: Lanes>(case: &Case, rays: &[(V, V)]) -> Vec<Option<u32>> {
+    let mut out = Vec::new();
+    for packet in rays.chunks_exact(L::WIDTH) {
+        let column = |pick: &dyn Fn(&(V, V)) -> f32| L::load(&packet.iter().map(pick).collect::<Vec<_>>());
+        let vector = |pick: &dyn Fn(&(V, V)) -> V| {
+            Vec3::new(column(&|ray| pick(ray).x), column(&|ray| pick(ray).y), column(&|ray| pick(ray).z))
+        };
+        let seen = Tori::seen(&case.tori.record(0), vector(&|ray| ray.0));
+        let mut lanes = vec![0.0; L::WIDTH];
+        let hit = monotone_newton(&seen, vector(&|ray| ray.1), L::zero(), L::splat(f32::INFINITY));
+        let found = hit.map_or(0, |(t, found)| {
+            t.store(&mut lanes);
+            found.bits()
+        });
+        out.extend(lanes.iter().enumerate().map(|(i, t)| (found >> i & 1 == 1).then_some(t.to_bits())));
+    }
+    out
+}
+
+#[test]
+fn all_widths_agree_to_the_bit() {
+    let mut rng = Rng(3);
+    for case in cases() {
+        let mut rays: Vec<_> = (0..240).map(|_| ray(&case, rng.below(FAMILIES.len()), &mut rng)).collect();
+        for i in (0..240).step_by(17) {
+            rays[i].0.y = f32::NAN;
+            rays[(i + 5) % 240].1.x = f32::NAN;
+            rays[(i + 7) % 240].1 = V::ZERO;
+        }
+        let one = bits::<f32>(&case, &rays);
+        assert_eq!(one, bits::<f32x4>(&case, &rays));
+        assert_eq!(one, bits::<f32x8>(&case, &rays));
+        assert!(one.iter().flatten().count() > 60);
+        for (ray, t) in rays.iter().zip(&one) {
+            assert!(t.is_none() || !(ray.0.is_nan() || ray.1.is_nan()), "{ray:?}: {t:?}");
+        }
+    }
+}
+
+#[test]
+fn from_outside_inside_and_the_hole() {
+    let case = Case::unit(0.25);
+    let close = |t: Option<f32>, exact: f32| assert!(t.is_some_and(|t| (t - exact).abs() < 1e-6), "{t:?} {exact}");
+    close(case.hit(V::X * 3.0, V::NEG_X), 1.75);
+    close(case.hit(V::ZERO, V::NEG_Y), 0.75);
+    close(case.hit(V::Y, V::NEG_Y), 0.25);
+    close(case.hit(V::Y, V::Z), 0.25);
+    close(case.hit(V::Y, V::X), (1.25f32 * 1.25 - 1.0).sqrt());
+    for zero in [0.0, -0.0] {
+        assert_eq!(case.hit(V::Z * 3.0, V::new(zero, zero, -1.0)), None, "through the hole");
+        assert_eq!(case.hit(V::X * 3.0, V::new(1.0, zero, zero)), None, "away");
+        assert_eq!(case.hit(V::new(3.0, 0.0, 0.26), V::new(-1.0, zero, zero)), None, "above");
+        close(case.hit(V::new(1.0, 0.0, 2.0), V::new(zero, zero, -1.0)), 1.75);
+    }
+    for bad in [f32::NAN, f32::INFINITY] {
+        assert_eq!(case.hit(V::X * bad, V::NEG_X), None);
+        assert_eq!(case.hit(V::X * 3.0, V::X * bad), None);
+        assert_eq!(case.between((V::X * 3.0, V::NEG_X), f32::NAN, 9.0), None);
+        assert_eq!(case.between((V::X * 3.0, V::NEG_X), 0.0, f32::NAN), None);
+    }
+}
+
+/// All four roots, one after another, each by a start behind the last.
+#[test]
+fn the_first_root_after_t_min_and_before_t_max() {
+    let case = Case::unit(0.25);
+    let ray = (V::X * 3.0, V::NEG_X);
+    let roots = [1.75f32, 2.25, 3.75, 4.25];
+    for (i, root) in roots.into_iter().enumerate() {
+        let starts = [if i == 0 { 0.0 } else { roots[i - 1] + 0.01 }, root - 0.01];
+        for t_min in starts {
+            let t = case.between(ray, t_min, f32::INFINITY);
+            assert!(t.is_some_and(|t| (t - root).abs() < 1e-6), "{i}: {t:?}");
+            assert_eq!(case.between(ray, t_min, root - 0.001), None, "{i}");
+            assert_eq!(case.between(ray, t_min, root + 0.001), t, "{i}");
+        }
+    }
+    assert_eq!(case.between(ray, 4.26, f32::INFINITY), None);
+    assert_eq!(case.between(ray, 0.0, f32::NEG_INFINITY), None);
+}
+
+#[test]
+fn from_the_surface_only_the_far_side_is_hit() {
+    let mut rng = Rng(4);
+    for case in cases() {
+        for _ in 0..100 {
+            let local = case.random_point(&mut rng).0;
+            let surface = case.tori.surface::<f32>(0, case.world(local).as_vec3().into());
+            let (origin, normal) = (V::from(surface.point), V::from(surface.normal));
+            let direction = (normal.as_dvec3() + rng.unit() * rng.range(0.0, 0.9)).normalize().as_vec3();
+            let cosine = direction.dot(normal);
+            // A ray that leaves may come back, across the hole or along the inner side, but not at once.
+            let soon = 0.5 * case.curvature_radius(origin) * f64::from(cosine);
+            let far = |t: Option<f32>| t.is_none_or(|t| f64::from(t) > soon);
+            assert!(far(case.hit(origin, direction)), "{:?} {origin} {direction}", case.it);
+            let inward = case.hit(origin, -direction);
+            assert!(inward.is_some() && far(inward), "{:?} {origin} {direction}: {inward:?}", case.it);
+        }
+    }
+}
+
+/// Rays that the shading spawns never meet their own surface next to where they start.
+#[test]
+fn spawned_rays_do_not_come_back_at_once() {
+    let mut rng = Rng(5);
+    let mut tested = 0;
+    for kappa in KAPPAS {
+        for scale in [1e-8f32, 1e-3, 1.0, 1e3, 1e8] {
+            for away in [0.0, 1.0, 30.0, 1e3] {
+                let center = (rng.unit() * away * f64::from(scale)).as_vec3();
+                let case = Case::new(center, rng.unit().as_vec3(), scale, scale * kappa);
+                tested += (0..1000).filter(|_| spawn(&case, &mut rng)).count();
+            }
+        }
+    }
+    assert!(tested > 100_000, "{tested}");
+}
+
+/// One ray, from a rounded point of the surface, to either side; false where it tells nothing.
+fn spawn(case: &Case, rng: &mut Rng) -> bool {
+    let point = case.world(case.random_point(rng).0).as_vec3();
+    let surface = case.tori.surface::<f32>(0, point.into());
+    let side = if rng.range(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 };
+    let normal = V::from(surface.normal) * side;
+    let [place, reach] = [V::from(surface.point).abs().max_element(), surface.reach];
+    let off = case.off(V::from(surface.point).as_dvec3()).0.abs();
+    assert!(off <= 4.0 * U * f64::from(place + reach), "{:?}: {off}", case.it);
+    let lift = place.mul_add(9.0 * ROUNDOFF, reach * (8.0 * ROUNDOFF));
+    let direction = (normal.as_dvec3() * rng.range(1e-3, 1.0) + rng.unit().cross(normal.as_dvec3())).normalize();
+    let cosine = direction.dot(normal.as_dvec3());
+    let t = case.hit(V::from(surface.point) + normal * lift, direction.as_vec3()).map(f64::from);
+    // Along a circle of the radius of curvature it would come back after 2 radius cos θ; unless the lift is no longer
+    // small beside that circle.
+    let radius = case.curvature_radius(surface.point.into());
+    let lost = f64::from(lift) > 0.1 * radius * cosine;
+    let soon = t.is_some_and(|t| t < 0.5 * radius * cosine);
+    assert!(lost || !soon, "{:?} {point} {direction}: {t:?}", case.it);
+    !lost
+}
+
+/// The first root above 0 of the quartic, multiplied out and solved by Ferrari's formulae.
+fn ferrari(kappa: f32, o: V, d: V) -> Option<f32> {
+    let (oo, od, flat) = (o.length_squared() + 1.0 - kappa * kappa, o.dot(d), |a: V, b: V| a.x * b.x + a.y * b.y);
+    let a3 = 4.0 * od;
+    let a2 = 2.0 * oo + 4.0 * od * od - 4.0 * flat(d, d);
+    let a1 = 4.0 * oo * od - 8.0 * flat(o, d);
+    let a0 = oo * oo - 4.0 * flat(o, o);
+    let p = a2 - 0.375 * a3 * a3;
+    let q = a1 - 0.5 * a3 * a2 + 0.125 * a3.powi(3);
+    let r = a0 - 0.25 * a3 * a1 + 0.0625 * a3 * a3 * a2 - 3.0 / 256.0 * a3.powi(4);
+    // The resolvent m³ + p m² + (p² / 4 − r) m − q² / 8, its greatest root by Cardano's formulae.
+    let (e, f) = (-p * p / 12.0 - r, -p.powi(3) / 108.0 + p * r / 3.0 - q * q / 8.0);
+    let discriminant = 0.25 * f * f + e.powi(3) / 27.0;
+    let m = -p / 3.0
+        + if discriminant >= 0.0 {
+            (-0.5 * f + discriminant.sqrt()).cbrt() + (-0.5 * f - discriminant.sqrt()).cbrt()
+        } else {
+            let angle = (-0.5 * f / (-e / 3.0).powi(3).sqrt()).clamp(-1.0, 1.0).acos();
+            2.0 * (-e / 3.0).sqrt() * (angle / 3.0).cos()
+        };
+    let root = (2.0 * m).max(0.0).sqrt();
+    let roots = [1.0, -1.0].into_iter().flat_map(|sign| {
+        let inner = (-(2.0 * p + 2.0 * m + sign * 2.0 * q / root)).sqrt();
+        [0.5 * (sign * root - inner), 0.5 * (sign * root + inner)].map(|y| y - 0.25 * a3)
+    });
+    roots.filter(|t| *t > 0.0).min_by(f32::total_cmp)
+}
+
+/// How many of 1000 rays at a torus have answers more than r / 100 wrong, by the textbook and by us.
+fn wrong(kappa: f32, distance: f64) -> [usize; 2] {
+    let (case, mut rng) = (Case::unit(kappa), Rng(6));
+    let mut wrong = [0; 2];
+    for _ in 0..1000 {
+        let (p, n) = case.random_point(&mut rng);
+        let to = p - n * (rng.range(0.2, 1.8) * f64::from(kappa));
+        let o = (rng.unit() * distance).as_vec3();
+        let d = (to - o.as_dvec3()).normalize().as_vec3();
+        let exact = case.exact(o.as_dvec3(), d.as_dvec3()).expect("aimed into the tube");
+        for (wrong, t) in wrong.iter_mut().zip([ferrari(kappa, o, d), case.hit(o, d)]) {
+            *wrong += usize::from(!t.is_some_and(|t| (f64::from(t) - exact).abs() < 0.01 * f64::from(kappa)));
+        }
+    }
+    wrong
+}
+
+#[test]
+fn ferrari_fails_and_ours_holds() {
+    let [near, farther, far] = [wrong(0.5, 2.0), wrong(0.5, 20.0), wrong(0.05, 100.0)];
+    assert_eq!([near[1], farther[1], far[1]], [0; 3], "ours");
+    assert!(near[0] < 50, "{near:?}: next to it, it works");
+    assert!(farther[0] > 500 && far[0] > 900, "{farther:?} {far:?}");
+}
+
+#[test]
+fn texture_coordinates() {
+    let case = Case::new(V::new(1.0, 2.0, 3.0), V::Y * 2.0, 2.0, 0.5);
+    // The outermost point along B = z, where u = ½, and the top along T = x.
+    for (q, checker) in [(V::Z * 2.5, V::new(0.0, 2.5, 0.0)), (V::new(2.0, 0.5, 0.0), V::new(2.0, 0.0, 0.5))] {
+        let surface = case.tori.surface::<f32>(0, (case.it.center + q * 1.001).into());
+        let found = V::from(case.tori.checker(0, &surface));
+        assert!((found - checker).length() < 0.01, "{found}");
+        let [u, v] = case.tori.uv(0, &surface);
+        let exact = [angle::turn(checker.x, checker.y), angle::turn(checker.z, checker.truncate().length() - 2.0)];
+        assert!((u - exact[0]).abs() < 0.01 && (v - exact[1]).abs() < 0.01, "{u} {v}");
+    }
+    // In the middle of things any normal will do, as long as it is one.
+    for q in [V::ZERO, V::X * 2.0, V::Y] {
+        let surface = case.tori.surface::<f32>(0, (case.it.center + q).into());
+        assert!((V::from(surface.normal).length() - 1.0).abs() < 1e-6, "{q}");
+    }
+}
+
+#[test]
+fn bounds_hold_the_surface_and_touch_it() {
+    let mut rng = Rng(7);
+    for case in cases() {
+        let [min, max] = case.tori.bounds(0).map(|v| v.as_dvec3());
+        let mut reached = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        for _ in 0..2000 {
+            let p = case.world(case.random_point(&mut rng).0);
+            assert!(p.cmpge(min).all() && p.cmple(max).all(), "{:?}: {p} of {min} {max}", case.it);
+            reached = [reached[0].min(p), reached[1].max(p)];
+        }
+        let loose = (reached[0] - min).max(max - reached[1]).max_element();
+        assert!(loose < 0.1 * (max - min).max_element(), "{:?}: {loose}", case.it);
+        let ball = case.tori.balls();
+        assert!(f64::from(ball.radius[0]) >= case.radii().iter().sum());
+    }
 }
