@@ -14,8 +14,8 @@
 //! - Turned: the rotation is made in `f64` and rounded once. The faces are missed by 5 ε |o − centre| + 4 ε t + 2 ε
 //!   (largest coordinate of the box).
 
-pub use super::face::Aim;
 use super::face;
+pub use super::face::Aim;
 use super::{Balls, Bounded, Nearest, Primitives, Surface};
 use crate::math::{LaneMask, Lanes, Vec3};
 use glam::DMat3;
@@ -225,7 +225,6 @@ impl Primitives for Cuboids {
         face::along(self.own(i, surface.point)[0], self.own_normal(i, surface))
     }
 }
-
 
 /// See the module's text.
 #[inline(always)]

@@ -32,11 +32,9 @@ pub fn between<L: Lanes>(low: Vec3<L>, high: Vec3<L>, aim: &Aim<L>) -> (L, L) {
     let (near, far) = (by_sign(aim.direction, low, -high), by_sign(aim.direction, high, -low));
     let mut enter = L::splat(f32::NEG_INFINITY);
     let mut exit = L::splat(f32::INFINITY);
-    for (near, far, inverse) in [
-        (near.x, far.x, aim.inverse.x),
-        (near.y, far.y, aim.inverse.y),
-        (near.z, far.z, aim.inverse.z),
-    ] {
+    for (near, far, inverse) in
+        [(near.x, far.x, aim.inverse.x), (near.y, far.y, aim.inverse.y), (near.z, far.z, aim.inverse.z)]
+    {
         enter = (near * inverse).max(enter);
         exit = (far * inverse).min(exit);
     }

@@ -30,8 +30,8 @@
 //! - A ray that runs in the plane of a face sees what is on one side of it: above, or on the cube's border inside.
 //! - Without iterations it is the closed cube, as [`super::cuboid`] says.
 
-pub use super::face::Aim;
 use super::face;
+pub use super::face::Aim;
 use super::{Balls, Bounded, Nearest, Primitives, Surface};
 use crate::math::{LaneMask, Lanes, Vec3};
 
@@ -330,11 +330,7 @@ impl<L: Lanes> March<L> {
         // On the face by which a ray enters, its first cell is known without rounding.
         let first = L::splat(seen.radius);
         let at_face = |o: L, inverse: L| outside & ((-first - o) * inverse).eq(enter);
-        let at = [
-            at_face(origin.x, aim.inverse.x),
-            at_face(origin.y, aim.inverse.y),
-            at_face(origin.z, aim.inverse.z),
-        ];
+        let at = [at_face(origin.x, aim.inverse.x), at_face(origin.y, aim.inverse.y), at_face(origin.z, aim.inverse.z)];
         let least = -grid.last::<L>();
         let cell = face::by_axis(at, Vec3::new(least, least, least), grid.cell(start));
         let clearance = grid.clearance(cell);
@@ -361,11 +357,8 @@ impl<L: Lanes> March<L> {
         // A direction of 0, or so little that its inverse overflows, never reaches a plane.
         let inverse = self.inverse * unit;
         let place = |x: L, inverse: L| x.select(inverse.lt(infinite), -infinite);
-        let start = Vec3::new(
-            place(self.start.x, inverse.x),
-            place(self.start.y, inverse.y),
-            place(self.start.z, inverse.z),
-        );
+        let start =
+            Vec3::new(place(self.start.x, inverse.x), place(self.start.y, inverse.y), place(self.start.z, inverse.z));
         let steps = 3 * self.grid.cells as usize;
         for _ in 0..steps {
             if !self.open.any() {

@@ -158,11 +158,12 @@ impl fmt::Display for Plan {
             ("spheres", "method `stable`, right from inside, on and far from a sphere"),
             ("triangles", "method `watertight`: no ray slips between triangles that share an edge or corner"),
             ("quads", "method `moller_trumbore`, as nothing shares their edges"),
-            ("boxes", "METHOD"),
+<<<<<<< HEAD
+            ("boxes", "method `slabs`: no ray slips through an edge or corner"),
             ("cylinders", "method `stable`; a closed one is an endless one within a slab, without cracks"),
             ("cones", "method `stable`, in the cone's own product, so that its tip and slant do not cancel"),
             ("tori", "method `monotone_newton`, which loses no root, single or double, near or far"),
-            ("fractals", "METHOD"),
+            ("fractals", "method `sphere_trace`, in steps that end on the grid's planes"),
         ];
         for ((kind, method), count) in methods.into_iter().zip(self.primitives).filter(|(_, count)| *count > 0) {
             writeln!(f, "{kind:<11} {count}: {method}")?;
