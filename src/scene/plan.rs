@@ -158,7 +158,6 @@ impl fmt::Display for Plan {
             ("spheres", "method `stable`, right from inside, on and far from a sphere"),
             ("triangles", "method `watertight`: no ray slips between triangles that share an edge or corner"),
             ("quads", "method `moller_trumbore`, as nothing shares their edges"),
-<<<<<<< HEAD
             ("boxes", "method `slabs`: no ray slips through an edge or corner"),
             ("cylinders", "method `stable`; a closed one is an endless one within a slab, without cracks"),
             ("cones", "method `stable`, in the cone's own product, so that its tip and slant do not cancel"),
