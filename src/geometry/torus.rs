@@ -16,14 +16,16 @@
 //!   the torus; what misses them is left out at once. s counts from the closest approach to the axis in there, where
 //!   ρ² = a sum of squares, which does not cancel.
 //!
+//! Next to a root g is taken for a parabola, so that one rounded value decides about a tangent.
+//!
 //! The idea of isolating roots between places known beforehand is that of sequences of derivatives (Yuksel,
 //! *High-Performance Polynomial Root Finding for Graphics*, HPG 2022); here the function is not the polynomial, and
 //! the second derivative is enough.
 //!
-//! **Error.** A hit lies at most 12 ε (R + r) + 4 ε |o − center| off the torus, whatever κ, as the tests measure: rounding
-//! moves p by a few ε and g by 2 κ times that. So t is off by the same over the cosine of incidence, at a tangent √ of
-//! it, and a tangent ray hits when the computed g is not above zero at its least. From farther than 1/ε sizes
-//! everything is a matter of rounding, and NaN hits nothing.
+//! **Error.** A hit lies at most 12 ε (R + r) + 4 ε |o − center| off the torus, whatever κ, as the tests measure:
+//! rounding moves p by a few ε and g by 2 κ times that. So t is off by the same over the cosine of incidence, at a
+//! tangent √ of it, and a tangent ray hits when the computed g is not above zero at its least. From farther than 1/ε
+//! sizes everything is a matter of rounding, and NaN hits nothing.
 //!
 //! **Inside, and on the surface.** From inside the far side is hit. An origin within 8 ε (R + r) of the surface counts
 //! as on it: a ray that leaves it hits nothing there, one that enters the far side.
@@ -103,8 +105,8 @@ impl Tori {
         self.axes.push([t, t.cross(a), a].map(|v| v.as_vec3()));
         self.major.push(major);
         self.minor.push(minor);
-        // (ε κ)^⅓ / 4, and ρ times that near the axis: so the parabola is off g by (2 near)³ |g‴| / 6 ≤ ε κ / 8, as |g‴|
-        // is at most 6 / ρ².
+        // (ε κ)^⅓ / 4, and ρ times that near the axis: so the parabola is off g by (2 near)³ |g‴| / 6 ≤ ε κ / 8, as
+        // |g‴| = 6 j² |ρ′| / ρ⁴ is at most 6 / ρ².
         self.near.push(0.25 * (ROUNDOFF * minor / major).cbrt());
         self.material.push(material);
         // The ball about the centre is smaller than the one around the box.

@@ -5,8 +5,8 @@ use super::{LaneMask, Lanes};
 /// The most steps of a search.
 ///
 /// Every step of Newton's method on a convex function divides value · slope by 4 or more, as
-/// f(x₁) / f(x₀) + f′(x₁) / f′(x₀) ≤ 1. From 1 that is 2⁻⁹⁶ after so many, whose root is 2⁻⁴⁸: the value or the slope is
-/// far below ε.
+/// f(x₁) / f(x₀) + f′(x₁) / f′(x₀) ≤ 1. From 1 that is 2⁻⁹⁶ after so many, whose root is 2⁻⁴⁸: the value or the slope
+/// is far below ε.
 const MOST_STEPS: usize = 48;
 
 /// A function's value and derivative at one place, the latter as a quotient, so that a step divides but once.

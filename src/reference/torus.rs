@@ -43,8 +43,8 @@ impl Torus {
 }
 
 impl Primitive for Torus {
-    /// Between the extrema of the quartic (|p|² + 1 − κ²)² − 4 ρ², κ = minor / major, it is monotone: so its sign at the
-    /// extrema tells the roots apart, which are then bisected. A tangent counts as a hit.
+    /// Between the extrema of the quartic (|p|² + 1 − κ²)² − 4 ρ², κ = minor / major, it is monotone: so its sign at
+    /// the extrema tells the roots apart, which are then bisected. A tangent counts as a hit.
     ///
     /// The ray is followed from its closest approach to the centre, to as far as one major radius beyond the torus. The
     /// sign is taken of (ρ − 1)² + z² − κ², the quartic's factor that may be negative; expanded it cancels.
