@@ -11,8 +11,8 @@
 //! - From inside and from the surface the ray meets the box where it leaves it; a ray that starts on a face and leaves
 //!   the box meets nothing.
 //! - Not turned: t is off by 3 ε t. Two boxes that share a face leave no gap: the quotient is the same for both.
-//! - Turned: the rotation is made in `f64` and rounded once. The faces are missed by 5 ε |o − centre| + 4 ε t + 2 ε
-//!   (largest coordinate of the box).
+//! - Turned: the rotation is made in `f64` and rounded once. The faces are missed by 5 ε |o − centre| + 7 ε t + 2 ε
+//!   |furthest corner|.
 
 use super::face;
 pub use super::face::Aim;

@@ -1,5 +1,5 @@
-//! The Menger sponge (K. Menger, 1926): a cube from whose every third of a third ... the middle of each direction is
-//! bored out. Seen from outside and from inside its material.
+//! The Menger sponge (K. Menger, 1926): a cube cut into 27, of which the 7 in the middle of the faces and of the cube are
+//! taken out, and so on with each of the 20 that are left. Seen from outside and from inside its material.
 //!
 //! With N = 3^iterations its surface lies in the planes of a grid of N × N × N cells. Counted from the middle one, a cell
 //! has three whole coordinates from −(N − 1)/2 to (N − 1)/2. On the level of edge 3w, w = N/3, N/9 … 1, a coordinate is
@@ -18,11 +18,11 @@
 //!   holds the one of Hart's norm.
 //! - It lies about the middle of the cell that the ray is in, so its faces lie in planes of the grid, and a step ends
 //!   exactly in one, in a cell that is known by whole numbers. So the march has neither a tolerance nor a last step that
-//!   is cut off: every step is at least a cell long in one direction, none goes back, and after at most 3 N steps the ray
-//!   has left the cube. On average it takes a few dozen at most.
+//!   is cut off: every step passes a plane, none goes back, and after at most 3 N steps the ray has left the cube. Of
+//!   20,000 random rays at 8 iterations the longest took 265 steps, the mean 7.
 //!
 //! The hit is where the state, void or solid, changes: t = (plane − o) / d, as of a box, so that the plane is missed by
-//! 3 ε |o − center| + 2 ε radius. Which cells the ray passes is decided from where it enters the cube: for a ray that is
+//! 4 ε |o − center| + 5 ε radius. Which cells the ray passes is decided from where it enters the cube: for a ray that is
 //! moved by 2 ε |o − center| + 4 ε radius.
 //!
 //! - From inside the material and from the surface the ray meets the next change of state. A ray that starts on a
@@ -118,7 +118,7 @@ impl Grid {
         Vec3::new(cell(place.x), cell(place.y), cell(place.z))
     }
 
-    /// The world coordinate of the plane below cell j, from the centre; off by 3 ε of itself, and exact at the cube's
+    /// The world coordinate of the plane below cell j, from the centre; off by 2 ε of itself, and exact at the cube's
     /// faces.
     #[inline(always)]
     fn plane<L: Lanes>(&self, j: L) -> L {
@@ -249,18 +249,20 @@ fn face_near<L: Lanes>(fractals: &Fractals, i: usize, point: Vec3<L>) -> Surface
     let distance = |x: L, j: L, step: L| (x - j - step.mul_add(half, half)).abs();
     let neighbour = |to: Vec3<L>| grid.solid(cell + to);
     let zero = L::zero();
-    let score = |to: Vec3<L>, distance: L| {
+    let candidate = |to: Vec3<L>, distance: L| {
         let other = neighbour(to);
         let face = (solid & !other) | (other & !solid);
         // Beside an edge, by rounding, there may be none: then the nearest plane has to do.
-        distance.select(face, distance + L::splat(2.0))
+        (distance.select(face, distance + L::splat(BEHIND)), face)
     };
-    let x = score(Vec3::new(step.x, zero, zero), distance(place.x, cell.x, step.x));
-    let y = score(Vec3::new(zero, step.y, zero), distance(place.y, cell.y, step.y));
-    let z = score(Vec3::new(zero, zero, step.z), distance(place.z, cell.z, step.z));
+    let (x, face_x) = candidate(Vec3::new(step.x, zero, zero), distance(place.x, cell.x, step.x));
+    let (y, face_y) = candidate(Vec3::new(zero, step.y, zero), distance(place.y, cell.y, step.y));
+    let (z, face_z) = candidate(Vec3::new(zero, zero, step.z), distance(place.z, cell.z, step.z));
     let on_x = x.le(y) & x.le(z);
     let on_y = !on_x & y.le(z);
     let on = [on_x, on_y, !on_x & !on_y];
+    let lost = solid & !((face_x & on[0]) | (face_y & on[1]) | (face_z & on[2]));
+    let cell = if lost.any() { out_of_corner(&grid, cell, step, [x, y, z], on, lost) } else { cell };
     let most = center.abs() + radius;
     let margin = (most * (4.0 * ROUNDOFF) + 8.0 * ROUNDOFF * radius).min(glam::Vec3::splat(0.25 / grid.per_unit()));
     let put = |p: L, cell: L, step: L, on: L::Mask, c: f32, margin: f32| {
@@ -278,6 +280,31 @@ fn face_near<L: Lanes>(fractals: &Fractals, i: usize, point: Vec3<L>) -> Surface
     let out = step.select(solid, -step);
     let normal = face::by_axis(on, out, Vec3::splat(glam::Vec3::ZERO));
     Surface { point, normal, reach: radius }
+}
+
+/// By how much farther, in cells, a plane may be that is a face, for one that is none to be passed over: no less than
+/// 300 ε of the cube's edge, as points near the surface are off by a few ε of their coordinates.
+const BEHIND: f32 = 1.0 / 16.0;
+
+/// In the solid beside an edge that runs inside a corner of the void, the cell across the second nearest plane where
+/// there is void across the nearest one from there.
+#[inline(never)]
+fn out_of_corner<L: Lanes>(
+    grid: &Grid,
+    cell: Vec3<L>,
+    step: Vec3<L>,
+    [x, y, z]: [L; 3],
+    on: [L::Mask; 3],
+    lost: L::Mask,
+) -> Vec3<L> {
+    let far = L::splat(f32::INFINITY);
+    let (x, y, z) = (far.select(on[0], x), far.select(on[1], y), far.select(on[2], z));
+    let second_x = x.le(y) & x.le(z);
+    let second_y = !second_x & y.le(z);
+    let second = [second_x, second_y, !second_x & !second_y];
+    let aside = face::by_axis(second, cell + step, cell);
+    let void = !grid.solid(face::by_axis(on, aside + step, aside));
+    aside.select(lost & void, cell)
 }
 
 /// A packet on its way through the cube, mirrored so that no direction is below zero.

@@ -119,8 +119,8 @@ impl Fractal {
             let (below, above) = (self.solid(below), self.solid(above));
             let side = if below { 1.0 } else { -1.0 };
             // On an edge rounding may show the point beside it, where nothing changes: then the nearest plane has to do,
-            // after all others.
-            let far = if below == above { 1.0 } else { 0.0 };
+            // if no other is within a part of a cell.
+            let far = if below == above { 1.0 / 16.0 } else { 0.0 };
             let distance = far + (grid[axis] - plane).abs();
             if distance < nearest.0 {
                 nearest = (distance, (axis, plane, side));

@@ -5,6 +5,7 @@ use glam::{Vec3, dvec3, vec3};
 use std::f64::consts::PI;
 
 mod shading;
+mod solids;
 
 fn material() -> Material {
     let pigment = Pigment::Color(vec3(0.5, 0.25, 1.0));
