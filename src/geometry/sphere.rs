@@ -119,7 +119,7 @@ impl Primitives for Spheres {
     #[inline(always)]
     fn uv<L: Lanes>(&self, _i: usize, surface: &Surface<L>) -> [L; 2] {
         let n = surface.normal;
-        [angle::turn(n.x, n.z), angle::height(n.y)]
+        [angle::turn(n.x, n.z), angle::elevation(n.y, n.x.mul_add(n.x, n.z * n.z).sqrt())]
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

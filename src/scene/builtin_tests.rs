@@ -132,10 +132,22 @@ fn lattice_is_a_diamonds() {
 #[test]
 fn what_cannot_be_loaded_is_said_in_one_line() {
     for (name, message) in [
-        ("nowhere", "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
-        ("", ": no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
-        ("a\nb", "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
-        ("x.png", "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos, lattice)"),
+        (
+            "nowhere",
+            "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+        ),
+        (
+            "",
+            ": no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+        ),
+        (
+            "a\nb",
+            "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+        ),
+        (
+            "x.png",
+            "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+        ),
         ("bunny.obj", "bunny.obj: No such file or directory (os error 2)"),
         ("balls.NFF", "balls.NFF: No such file or directory (os error 2)"),
         ("Cargo.lock", "Cargo.lock: scenes in .lock files are not supported yet"),
