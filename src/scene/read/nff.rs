@@ -350,8 +350,8 @@ impl Materials {
     /// The sides of what is round, and perhaps to be seen from inside only.
     fn sides(&self, inside: bool) -> Sides {
         match inside {
+            _ if self.transmits() => Sides::Both,
             true => Sides::Back,
-            false if self.transmits() => Sides::Both,
             false => Sides::Front,
         }
     }
