@@ -3,14 +3,17 @@ use super::{Primitive, axes, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 
+/// Heights and coordinates count from the narrow end, so that a tip is exactly where it is.
 #[derive(Clone, Debug)]
 pub(super) struct Cone {
-    base: DVec3,
-    /// T, B and the unit axis.
+    narrow: DVec3,
+    /// T and B of the description, and the unit axis from the narrow to the wide end.
     frame: [DVec3; 3],
     length: f64,
-    /// At the base and at the apex.
+    /// At the narrow and at the wide end.
     radii: [f64; 2],
+    /// Whether the narrow end is the description's apex.
+    upright: bool,
     caps: bool,
     sides: Sides,
     material: usize,
@@ -19,20 +22,23 @@ pub(super) struct Cone {
 /// The nearest part of a cone.
 enum Part {
     Side,
-    Base,
-    Apex,
+    Narrow,
+    Wide,
 }
 
 impl Cone {
     pub fn new(it: &scene::Cone) -> Self {
-        let base = it.base.as_dvec3();
-        let along = it.apex.as_dvec3() - base;
-        let [t, b] = axes(along.normalize());
+        let [base, apex] = [it.base, it.apex].map(|p| p.as_dvec3());
+        let [base_radius, apex_radius] = [it.base_radius, it.apex_radius].map(f64::from);
+        let axis = (apex - base).normalize();
+        let [t, b] = axes(axis);
+        let upright = apex_radius < base_radius;
         Self {
-            base,
-            frame: [t, b, along.normalize()],
-            length: along.length(),
-            radii: [it.base_radius, it.apex_radius].map(f64::from),
+            narrow: if upright { apex } else { base },
+            frame: [t, b, if upright { -axis } else { axis }],
+            length: (apex - base).length(),
+            radii: [base_radius.min(apex_radius), base_radius.max(apex_radius)],
+            upright,
             caps: it.caps,
             sides: it.sides,
             material: it.material,
@@ -42,6 +48,11 @@ impl Cone {
     /// Along T, B and the axis, of a vector.
     fn along(&self, v: DVec3) -> DVec3 {
         DVec3::from_array(self.frame.map(|a| a.dot(v)))
+    }
+
+    /// Above the description's base.
+    fn height(&self, q: DVec3) -> f64 {
+        if self.upright { self.length - q.z } else { q.z }
     }
 
     /// What the radius grows by, a unit of height.
@@ -56,13 +67,13 @@ impl Cone {
     }
 
     fn part(&self, point: DVec3) -> Part {
-        let q = self.along(point - self.base);
+        let q = self.along(point - self.narrow);
         let end = |radius: f64, height: f64| if radius > 0.0 { height.abs() } else { f64::INFINITY };
-        let (base, apex) = (end(self.radii[0], q.z), end(self.radii[1], q.z - self.length));
+        let (narrow, wide) = (end(self.radii[0], q.z), end(self.radii[1], q.z - self.length));
         match () {
-            _ if !self.caps || self.outside(q).abs() <= base.min(apex) => Part::Side,
-            _ if base < apex => Part::Base,
-            _ => Part::Apex,
+            _ if !self.caps || self.outside(q).abs() <= narrow.min(wide) => Part::Side,
+            _ if narrow < wide => Part::Narrow,
+            _ => Part::Wide,
         }
     }
 
@@ -91,11 +102,11 @@ impl Cone {
     /// that says it more precisely.
     fn between_ends(&self, q: DVec3) -> bool {
         let [r0, r1] = self.radii;
-        if self.slope().abs() <= 1.0 {
+        if self.slope() <= 1.0 {
             return (0.0..=self.length).contains(&q.z);
         }
         let this_side = r0 + self.slope() * q.z >= 0.0;
-        this_side && (r0.min(r1)..=r0.max(r1)).contains(&q.truncate().length())
+        this_side && (r0..=r1).contains(&q.truncate().length())
     }
 }
 
@@ -103,7 +114,7 @@ impl Primitive for Cone {
     /// The nearest of: the side's roots between the ends, the ends' planes within their radii. From outside the
     /// direction runs against the outward normal.
     fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        let (o, d) = (self.along(origin - self.base), self.along(direction));
+        let (o, d) = (self.along(origin - self.narrow), self.along(direction));
         let side = self.roots(o, d).into_iter().map(|t| (t, o + t * d)).filter(|(_, q)| self.between_ends(*q));
         // The gradient of x² + y² − (r + m z)².
         let outward = |q: DVec3| q.truncate().extend(-self.slope() * (self.radii[0] + self.slope() * q.z));
@@ -122,28 +133,28 @@ impl Primitive for Cone {
     }
 
     fn project(&self, point: DVec3) -> DVec3 {
-        let q = self.along(point - self.base);
+        let q = self.along(point - self.narrow);
         let off = match self.part(point) {
             Part::Side => self.outside(q),
-            Part::Base => -q.z,
-            Part::Apex => q.z - self.length,
+            Part::Narrow => -q.z,
+            Part::Wide => q.z - self.length,
         };
         point - off * self.normal(point)
     }
 
     fn normal(&self, point: DVec3) -> DVec3 {
         let [t, b, axis] = self.frame;
-        let q = self.along(point - self.base);
+        let q = self.along(point - self.narrow);
         match self.part(point) {
             Part::Side => ((q.x * t + q.y * b).normalize_or(t) - self.slope() * axis).normalize(),
-            Part::Base => -axis,
-            Part::Apex => axis,
+            Part::Narrow => -axis,
+            Part::Wide => axis,
         }
     }
 
     /// From the middle of the narrow end to the wide rim.
     fn extent(&self) -> f64 {
-        self.length.hypot(self.radii[0].max(self.radii[1]))
+        self.length.hypot(self.radii[1])
     }
 
     fn material(&self) -> usize {
@@ -151,18 +162,18 @@ impl Primitive for Cone {
     }
 
     fn uv(&self, point: DVec3) -> DVec2 {
-        let q = self.along(point - self.base);
+        let q = self.along(point - self.narrow);
         match self.part(point) {
-            Part::Side => DVec2::new(turn(q.x, q.y), q.z / self.length),
-            Part::Base => 0.5 + q.truncate() / (2.0 * self.radii[0]),
-            Part::Apex => 0.5 + q.truncate() / (2.0 * self.radii[1]),
+            Part::Side => DVec2::new(turn(q.x, q.y), self.height(q) / self.length),
+            Part::Narrow => 0.5 + q.truncate() / (2.0 * self.radii[0]),
+            Part::Wide => 0.5 + q.truncate() / (2.0 * self.radii[1]),
         }
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {
-        let q = self.along(point - self.base);
+        let q = self.along(point - self.narrow);
         match self.part(point) {
-            Part::Side => q,
+            Part::Side => q.truncate().extend(self.height(q)),
             _ => q.truncate().extend(0.0),
         }
     }
