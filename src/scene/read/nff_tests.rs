@@ -128,9 +128,9 @@ fn sides_follow_the_radius_and_the_material() {
         pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1\n";
     let d = sound(&format!("{things}f 1 1 1 1 0 1 0.5 1.5 {things}"));
     let (front, back, both) = (Sides::Front, Sides::Back, Sides::Both);
-    assert_eq!(d.spheres.iter().map(|s| s.sides).collect::<Vec<_>>(), [front, back, both, back]);
-    assert_eq!(d.cylinders.iter().map(|c| c.sides).collect::<Vec<_>>(), [front, back, both, back]);
-    assert_eq!(d.cones.iter().map(|c| c.sides).collect::<Vec<_>>(), [front, back, back, both, back, back]);
+    assert_eq!(d.spheres.iter().map(|s| s.sides).collect::<Vec<_>>(), [front, back, both, both]);
+    assert_eq!(d.cylinders.iter().map(|c| c.sides).collect::<Vec<_>>(), [front, back, both, both]);
+    assert_eq!(d.cones.iter().map(|c| c.sides).collect::<Vec<_>>(), [front, back, back, both, both, both]);
     let meshes: Vec<_> = d.meshes.iter().map(|m| (m.sides, &m.materials[..], m.normals.len())).collect();
     assert_eq!(meshes, [(front, &[0][..], 0), (both, &[1][..], 0), (both, &[0, 1][..], 6)]);
     assert!(d.spheres.iter().all(|s| s.radius == 2.0) && d.cylinders.iter().all(|c| c.radius == 1.0));

@@ -26,7 +26,7 @@ use super::{MAX_OBJ_BYTES, Progress, ReadError, assets::Assets, image::Images, l
 use crate::scene::{Material, Mesh, check};
 
 /// The most triangles of all mesh files together. A polygon may make one of every two bytes.
-const MAX_TRIANGLES: usize = 1 << 26;
+const MAX_TRIANGLES: usize = 1 << 25;
 
 /// The most materials of a file.
 const MAX_MATERIALS: usize = 1 << 16;

@@ -198,7 +198,7 @@ fn limits_hold_for_all_files_together() {
         go(&mut budget)
             .unwrap_err()
             .to_string()
-            .ends_with(":3: f: mesh files have at most 67108864 triangles together")
+            .ends_with(":3: f: mesh files have at most 33554432 triangles together")
     );
     let mut budget = Budget { bytes: 25, triangles: 5 };
     assert!(go(&mut budget).unwrap_err().to_string().ends_with("m.obj: longer than 25 bytes"));
@@ -323,6 +323,26 @@ fn textures_are_beside_their_library() {
     assert_eq!(pigments, [0, 1].map(|texture| Pigment::Texture { texture, size: 1.0 }));
     let expected = Texture { width: 2, height: 1, texels: vec![[255, 0, 0], [0, 0, 255]] };
     assert!(textures.len() == 2 && textures.iter().all(|t| **t == expected));
+}
+
+#[test]
+fn a_scenes_material_counts_before_those_of_the_file() {
+    let text = format!("{SQUARE}f 1 2 3 4\nmtllib a.mtl\nusemtl red\nf 1 2 4\nf 1 2 3\n");
+    let f = Folder::new(&[("m.obj", text.as_bytes())]);
+    let scene = |text: &str| crate::scene::parse(text, &f.path("s.toml")).map_err(|error| error.to_string());
+    let own = scene("materials.z.color = [0, 0, 1]\n[[mesh]]\nfile = \"m.obj\"\nmaterial = \"z\"").unwrap();
+    assert_eq!((own.materials.len(), own.meshes[0].material, own.meshes[0].materials.len()), (1, 0, 0));
+    let file = "[[mesh]]\nfile = \"m.obj\"\n";
+    assert!(scene(file).unwrap_err().contains("s.toml:2: mesh[0].file: "));
+    fs::write(f.path("a.mtl"), "newmtl red\nKd 1 0 0").unwrap();
+    let names =
+        |d: &crate::scene::Description| d.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>().join(" ");
+    let twice = scene(&format!("materials.\"m.obj:red\".color = [0, 0, 1]\n{file}{file}")).unwrap();
+    assert_eq!(names(&twice), "m.obj:red default m.obj:red#2 m.obj:red#3");
+    assert_eq!([&twice.meshes[0].materials, &twice.meshes[1].materials], [&[1, 1, 2, 2], &[1, 1, 3, 3]]);
+    // The scene's own default is the default of the file's faces, too.
+    let default = scene(&format!("materials.default.color = [0, 0, 1]\n{file}")).unwrap();
+    assert_eq!((names(&default).as_str(), &default.meshes[0].materials[..]), ("default m.obj:red", &[0, 0, 1, 1][..]));
 }
 
 #[test]
