@@ -221,13 +221,7 @@ impl Primitives for Cylinders {
 
 /// See the module's text.
 #[inline(always)]
-pub fn stable<L: Lanes>(
-    seen: &SeenCylinder<L>,
-    direction: Vec3<L>,
-    sides: Sides,
-    t_min: L,
-    t_max: L,
-) -> Nearest<L> {
+pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, sides: Sides, t_min: L, t_max: L) -> Nearest<L> {
     let SeenCylinder { axes, p: [px, py], c, r2, ends: [low, high], caps, .. } = *seen;
     let [x, y, along] = axes.map(|a| a.dot(direction));
     let a = x.mul_add(x, y * y);
