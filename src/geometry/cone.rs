@@ -421,10 +421,10 @@ pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_
             let by_radius = steep & away.ge(inner2) & away.le(outer2);
             possible & (by_radius | !steep & t.ge(start) & t.le(end))
         };
-        // On a line along the slant all is rounding, and the root may seem to lie beyond the tip.
-        let enter = enter.max(start).select(steep & opening, enter);
-        let exit = exit.min(end).select(steep & !opening, exit);
-        Crossing { enter, exit, entered: between(enter), left: between(exit) }
+        let (entered, left) = (between(enter), between(exit));
+        // Along the slant all is rounding, and a root of the right radius may seem to lie beyond the ends.
+        let held = |t: L| t.max(start).min(end).select(steep, t);
+        Crossing { enter: held(enter), exit: held(exit), entered, left }
     };
     let unit = L::splat(shape.unit);
     (crossing.enter, crossing.exit) = (crossing.enter * unit, crossing.exit * unit);
