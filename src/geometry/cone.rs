@@ -358,9 +358,11 @@ impl<L: Lanes> Line<L> {
             let (b, c) = (product(p, self.q), product(p, p));
             let root = expanded(p, self.q).max(L::zero()).sqrt();
             let slope = root.select(leaving, -root);
-            // Of the two forms of the root the one that does not cancel.
-            let alike = (b * slope).gt(L::zero());
-            let step = (-c / (b + slope)).select(alike, (slope - b) / self.a);
+            // Of the two forms of the root the one with the smaller error: that of b is ε |P| |Q| over a, that of c is
+            // ε |P|² over b + slope, which does not cancel where both have one sign.
+            let sum = b + slope;
+            let by_c = (b * slope).gt(L::zero()) & (self.a * self.a * size(p)).lt(sum * sum * size(self.q));
+            let step = (-c / sum).select(by_c, (slope - b) / self.a);
             let sound = near & step.abs().lt(L::splat(f32::INFINITY));
             t = (t + step).select(sound, t);
             last = size(p).select(near, last);
