@@ -322,10 +322,7 @@ impl<L: Lanes> Line<L> {
     /// The discriminant b² − a c; below zero or NaN where the line misses the cone.
     #[inline(always)]
     fn discriminant(&self) -> L {
-        let ([px, py, pz], [qx, qy, qz]) = (self.p, self.q);
-        let (x, y) = (px.neg_mul_add(qz, pz * qx), py.neg_mul_add(qz, pz * qy));
-        let apart = py.neg_mul_add(qx, px * qy);
-        let outside = apart.neg_mul_add(apart, x.mul_add(x, y * y));
+        let outside = expanded(self.p, self.q);
         // Steeper than the slant, every line meets the cone.
         let steep = self.a.lt(L::zero());
         let outside = L::zero().select(steep & outside.lt(L::zero()), outside);
@@ -340,13 +337,14 @@ impl<L: Lanes> Line<L> {
         let q = (root - self.b).select(ahead, -(self.b + root));
         // From the tip itself all is zero, and both roots are.
         let other = (self.c / q).select(!q.eq(L::zero()), L::zero());
-        let [first, second] = [self.refined(q / self.a, root), self.refined(other, root)];
+        let [first, second] = [self.refined(q / self.a, ahead), self.refined(other, !ahead)];
         (first.min(second), first.max(second))
     }
 
     /// The root at `t`, solved for again from there, twice at most, where that is a quarter as far from the tip or less.
+    /// `leaving` says at which of the two roots ⟨P, P⟩ grows.
     #[inline(always)]
-    fn refined(&self, t: L, root: L) -> L {
+    fn refined(&self, t: L, leaving: L::Mask) -> L {
         let size = |[x, y, z]: [L; 3]| x.mul_add(x, y.mul_add(y, z * z));
         let (mut t, mut last) = (t, size(self.p));
         // The first root may be off by some parts in a hundred, the second by as much of that.
@@ -356,16 +354,29 @@ impl<L: Lanes> Line<L> {
             if !near.any() {
                 break;
             }
+            // All of it anew from this point, so that it belongs to one line.
             let (b, c) = (product(p, self.q), product(p, p));
-            let q = root + b.abs();
-            // Beside a tangent |a c| ≤ q² no longer holds: that is rounding, and nothing to learn from.
-            let sound = near & (self.a * c).abs().le(q * q) & q.gt(L::zero());
-            let step = c / q;
-            t = (t + step.select(b.lt(L::zero()), -step)).select(sound, t);
+            let root = expanded(p, self.q).max(L::zero()).sqrt();
+            let slope = root.select(leaving, -root);
+            // Of the two forms of the root the one with the smaller error: that of b is ε |P| |Q| over a, that of c is
+            // ε |P|² over b + slope, which does not cancel where both have one sign.
+            let sum = b + slope;
+            let by_c = (b * slope).gt(L::zero()) & (self.a * self.a * size(p)).lt(sum * sum * size(self.q));
+            let step = (-c / sum).select(by_c, (slope - b) / self.a);
+            let sound = near & step.abs().lt(L::splat(f32::INFINITY));
+            t = (t + step).select(sound, t);
             last = size(p).select(near, last);
         }
         t
     }
+}
+
+/// ⟨P, Q⟩² − ⟨P, P⟩⟨Q, Q⟩ as the module's text expands it.
+#[inline(always)]
+fn expanded<L: Lanes>([px, py, pz]: [L; 3], [qx, qy, qz]: [L; 3]) -> L {
+    let (x, y) = (px.neg_mul_add(qz, pz * qx), py.neg_mul_add(qz, pz * qy));
+    let apart = py.neg_mul_add(qx, px * qy);
+    apart.neg_mul_add(apart, x.mul_add(x, y * y))
 }
 
 /// See the module's text.
@@ -412,10 +423,10 @@ pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_
             let by_radius = steep & away.ge(inner2) & away.le(outer2);
             possible & (by_radius | !steep & t.ge(start) & t.le(end))
         };
-        // On a line along the slant all is rounding, and the root may seem to lie beyond the tip.
-        let enter = enter.max(start).select(steep & opening, enter);
-        let exit = exit.min(end).select(steep & !opening, exit);
-        Crossing { enter, exit, entered: between(enter), left: between(exit) }
+        let (entered, left) = (between(enter), between(exit));
+        // Along the slant all is rounding, and a root of the right radius may seem to lie beyond the ends.
+        let held = |t: L| t.max(start).min(end).select(steep, t);
+        Crossing { enter: held(enter), exit: held(exit), entered, left }
     };
     let unit = L::splat(shape.unit);
     (crossing.enter, crossing.exit) = (crossing.enter * unit, crossing.exit * unit);
