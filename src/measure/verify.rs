@@ -22,8 +22,9 @@
 //!   light, where s' is s for that surface and without the eye.
 //!
 //! The reference answers [`ROUNDS`] such questions, spread evenly over those differences, and
-//! - a differing hit is explained when one of them hits that primitive, at a t that lies within the range of their ts
-//!   for it, give or take a relative k·u;
+//! - a differing hit is explained when one of them hits that primitive, or would but for another that is not nearer by
+//!   more than a relative k·u (as where a cylinder ends in a sphere of the same radius), at a t that lies within
+//!   the range of their ts for it, give or take a relative k·u;
 //! - a differing pixel is explained when every channel lies within the range of their values, give or take 1/255,
 //!   and they disagree among themselves by more than 1/255 in each channel that differs: the pixel sits within the
 //!   bound of an edge of an object, of a shadow, of a checker cell or of a mirror image.

@@ -133,6 +133,12 @@ impl Tracer {
         self.distances(origin, direction).any(|(_, t)| t < t_max)
     }
 
+    /// The first distance above 0 at which the ray meets a primitive, whatever else is in the way; `None` for unknown
+    /// ids.
+    pub fn distance(&self, id: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.primitives.get(id as usize)?.distance(origin, direction)
+    }
+
     /// A primitive's own size: a sphere's radius, a triangle's longest edge, 0 for planes and unknown ids.
     pub fn extent(&self, id: u32) -> f64 {
         self.primitives.get(id as usize).map_or(0.0, |p| p.extent())

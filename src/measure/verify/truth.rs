@@ -59,11 +59,15 @@ impl Truth {
         let mut asked = 0;
         ROUNDS.iter().any(|&until| {
             for q in (asked..until).map(|q| around.question(q)) {
-                let hit = self.tracer.intersect(q.origin, q.direction, f64::INFINITY);
-                if hit.map_or(NONE, |hit| hit.primitive) == primitive {
-                    let t = hit.map_or(f64::INFINITY, |hit| hit.t);
-                    (low, high) = (low.min(t), high.max(t));
-                }
+                let nearest = self.tracer.intersect(q.origin, q.direction, f64::INFINITY).map(|hit| hit.t);
+                let own = self.tracer.distance(primitive, q.origin, q.direction);
+                // Where two surfaces are closer together than t can tell, either may be the nearer.
+                let t = match (own, nearest) {
+                    (None, None) if primitive == NONE => f64::INFINITY,
+                    (Some(own), Some(nearest)) if own <= nearest * (1.0 + K * U) => own,
+                    _ => continue,
+                };
+                (low, high) = (low.min(t), high.max(t));
             }
             asked = until;
             (low * (1.0 - K * U)..=high * (1.0 + K * U)).contains(&f64::from(t))
