@@ -53,7 +53,7 @@ impl Lighting {
 
     /// Adds light `light`; returns the number of shadow rays.
     #[inline(always)]
-    pub fn add<L: Lanes>(
+    pub fn add<L: Lanes, const RICH: bool>(
         &mut self,
         scene: &Scene,
         light: usize,
@@ -63,8 +63,8 @@ impl Lighting {
         observer: &mut impl Observer,
     ) -> u64 {
         let (count, bounds) = match scene.plan.shadows[light] {
-            ShadowStart::Light => self.fire_from_light::<L>(scene, light, wave, surfaces),
-            ShadowStart::Point => self.fire_from_points::<L>(scene, light, wave, surfaces),
+            ShadowStart::Light => self.fire_from_light::<L, RICH>(scene, light, wave, surfaces),
+            ShadowStart::Point => self.fire_from_points::<L, RICH>(scene, light, wave, surfaces),
         };
         if count > 0 {
             observer.shadow(&self.rays);
@@ -75,7 +75,7 @@ impl Lighting {
 
     /// Makes the shadow rays, one for every hit that faces the light, from the light.
     #[inline(always)]
-    fn fire_from_light<L: Lanes>(
+    fn fire_from_light<L: Lanes, const RICH: bool>(
         &mut self,
         scene: &Scene,
         light: usize,
@@ -85,7 +85,7 @@ impl Lighting {
         let position = scene.lights[light].position;
         self.rays.set_common_origin(position);
         let mut directions = Extent::<L>::empty();
-        let count = self.fire::<L>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
+        let count = self.fire::<L, RICH>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
             let ray = spawn::shadow_from_light(Vec3::splat(position), point, normal, lift);
             directions.include(ray.direction, L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero()));
             ray
@@ -95,7 +95,7 @@ impl Lighting {
 
     /// Makes the same rays, from the points.
     #[inline(always)]
-    fn fire_from_points<L: Lanes>(
+    fn fire_from_points<L: Lanes, const RICH: bool>(
         &mut self,
         scene: &Scene,
         light: usize,
@@ -105,7 +105,7 @@ impl Lighting {
         let position = Vec3::splat(scene.lights[light].position);
         self.rays.common_origin = false;
         let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
-        let count = self.fire::<L>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
+        let count = self.fire::<L, RICH>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
             let ray = spawn::shadow_from_point(position, point, normal, lift);
             let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
             directions.include(ray.direction, active);
@@ -119,7 +119,7 @@ impl Lighting {
     /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number. `towards` is 1 where they run to
     /// the light and −1 where they come from it.
     #[inline(always)]
-    fn fire<L: Lanes>(
+    fn fire<L: Lanes, const RICH: bool>(
         &mut self,
         scene: &Scene,
         wave: &Wave,
@@ -136,11 +136,11 @@ impl Lighting {
                 L::splat(-1.0).store(&mut self.rays.t_max[at..]);
                 continue;
             }
-            let (point, geometric) = (Vec3::load(&surfaces.point, at), surfaces.geometric_normal(scene, at));
+            let (point, geometric) = (Vec3::load(&surfaces.point, at), surfaces.geometric_normal::<L, RICH>(scene, at));
             let ray = spawn(&mut self.rays, at, point, geometric, lift);
             let mut lit = hit & ray.cosine.gt(L::zero());
             let mut cosine = ray.cosine;
-            if scene.plan.smooth {
+            if RICH && scene.plan.smooth {
                 cosine = Vec3::<L>::load(&surfaces.normal, at).dot(ray.direction) * L::splat(towards);
                 lit = lit & cosine.gt(L::zero());
             }

@@ -54,30 +54,51 @@ impl Queue {
         Some((wave, level as u32 + 2, kind))
     }
 
+    /// A wave without rays.
+    #[inline(always)]
+    pub fn spare(&mut self) -> Box<Wave> {
+        let mut wave = self.free.pop().unwrap_or_default();
+        wave.rays.clear();
+        wave
+    }
+
     /// Takes a wave back that is done.
     #[inline(always)]
     pub fn give_back(&mut self, wave: Box<Wave>) {
         self.free.push(wave);
     }
 
-    /// Adds the lanes of a packet where `mask` is true to the waves of `depth`, which is 2 or more.
+    /// Adds a whole wave of mirrored rays to those of `depth`, which is 2 or more.
     #[inline(always)]
-    pub fn append<L: Lanes>(&mut self, plan: &Plan, depth: u32, kind: Kind, leaving: &Leaving<L>, mask: L::Mask) {
+    pub fn put(&mut self, depth: u32, wave: Box<Wave>) {
+        if wave.rays.len == 0 {
+            return self.give_back(wave);
+        }
+        self.line(depth, Kind::Reflection).push_back(wave);
+        self.waiting += 1;
+    }
+
+    #[inline(always)]
+    fn line(&mut self, depth: u32, kind: Kind) -> &mut Line {
         let level = depth as usize - 2;
         if self.levels.len() <= level {
             self.levels.resize_with(level + 1, Default::default);
         }
-        let line = &mut self.levels[level][kind as usize];
+        &mut self.levels[level][kind as usize]
+    }
+
+    /// Adds the lanes of a packet where `mask` is true to the waves of `depth`, which is 2 or more.
+    #[inline(always)]
+    pub fn append<L: Lanes>(&mut self, plan: &Plan, depth: u32, kind: Kind, leaving: &Leaving<L>, mask: L::Mask) {
         let mut left = mask.bits();
         while left != 0 {
-            if line.back().is_none_or(|wave| wave.rays.len == BATCH) {
-                let mut wave = self.free.pop().unwrap_or_default();
-                wave.rays.clear();
-                line.push_back(wave);
+            if self.line(depth, kind).back().is_none_or(|wave| wave.rays.len == BATCH) {
+                let wave = self.spare();
+                self.line(depth, kind).push_back(wave);
                 self.waiting += 1;
             }
-            let Some(wave) = line.back_mut() else { return };
-            left = wave.append::<L>(plan, leaving, L::Mask::from_bits(left));
+            let Some(wave) = self.line(depth, kind).back_mut() else { return };
+            left = wave.append::<L, true>(plan, leaving, L::Mask::from_bits(left));
         }
     }
 }

@@ -92,9 +92,8 @@ struct Gathered<L> {
     specular: L,
     shininess: L,
     glossy: bool,
-    /// For shading; the same as `normal` unless the plan has interpolated normals.
+    /// For shading; of account only in a rich scene, as is all that follows, and `own`.
     smooth: Vec3<L>,
-    /// Of account only where the plan refracts, as is the next.
     transmission: L,
     additive: L,
 }
@@ -107,28 +106,28 @@ impl Surfaces {
         self.lift[..len.next_multiple_of(8)].fill(-1.0);
     }
 
-    /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`.
+    /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`. `RICH` is the plan's.
     ///
     /// Neighbouring rays mostly hit the same primitive, so each primitive in the packet is looked at once, for all
     /// lanes, and selected where it was hit.
     #[inline(always)]
-    pub fn find<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
+    pub fn find<L: Lanes, const RICH: bool>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
         let direction = Vec3::<L>::load(&wave.rays.direction, at);
         let p = direction.mul_add(hit.t, wave.rays.origins(at));
         let mut ids = [0; 8];
         hit.primitive.store_ids(&mut ids);
         let first = ids[hit.found.bits().trailing_zeros() as usize];
-        let mut g = gather(scene, first, p);
+        let mut g = gather::<L, RICH>(scene, first, p);
         let mut left = hit.found.bits() & !L::id_mask(&ids, first).bits();
         while left != 0 {
             let id = ids[left.trailing_zeros() as usize];
             let same = L::id_mask(&ids, id);
-            g = gather(scene, id, p).select(same, g);
+            g = gather::<L, RICH>(scene, id, p).select(same, g);
             left &= !same.bits();
         }
         let behind = g.normal.dot(direction).gt(L::zero());
         let mut normal = (-g.normal).select(behind, g.normal);
-        if scene.plan.smooth {
+        if RICH && scene.plan.smooth {
             normal.store(&mut self.geometric, at);
             normal = (-g.smooth).select(behind, g.smooth);
         }
@@ -136,7 +135,7 @@ impl Surfaces {
         normal.store(&mut self.normal, at);
         spawn::lift(g.point, g.reach).select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
-        let own = weight * g.own;
+        let own = weight * if RICH { g.own } else { L::splat(1.0) - g.mirror };
         (g.color * own).store(&mut self.color, at);
         (weight * g.mirror).store(&mut self.mirror[at..]);
         if scene.plan.highlights {
@@ -144,7 +143,7 @@ impl Surfaces {
             (g.specular * own).store(&mut self.specular[at..]);
             g.shininess.store(&mut self.shininess[at..]);
         }
-        if scene.plan.refracts {
+        if RICH && scene.plan.refracts {
             (weight * g.transmission).store(&mut self.bodies.transmission[at..]);
             g.additive.store(&mut self.bodies.additive[at..]);
             self.bodies.pass::<L>(scene, wave, at, hit, !behind);
@@ -153,8 +152,8 @@ impl Surfaces {
 
     /// The unit normals of the surfaces themselves for packet `at`, turned against the rays.
     #[inline(always)]
-    pub fn geometric_normal<L: Lanes>(&self, scene: &Scene, at: usize) -> Vec3<L> {
-        Vec3::load(if scene.plan.smooth { &self.geometric } else { &self.normal }, at)
+    pub fn geometric_normal<L: Lanes, const RICH: bool>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        Vec3::load(if RICH && scene.plan.smooth { &self.geometric } else { &self.normal }, at)
     }
 }
 
@@ -215,7 +214,7 @@ impl<L: Lanes> Gathered<L> {
 
 /// Primitive `id`'s surface and material at the points `p`.
 #[inline(always)]
-fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
+fn gather<L: Lanes, const RICH: bool>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
     let (surface, material) = surface(scene, id, p);
     let m = &scene.materials[material as usize];
     let color = match m.pigment {
@@ -224,14 +223,9 @@ fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
             let odd = odd_cell(scene, id, &surface, 1.0 / size);
             Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
         }
-        Pigment::Texture { texture, size } => {
-            let [u, v] = with_primitive!(scene, id, |kind, i| kind.uv(i, &surface));
-            let per_size = L::splat(1.0 / size);
-            texture::sample(&scene.textures[texture], u * per_size, v * per_size)
-        }
+        Pigment::Texture { texture, size } => textured(scene, id, &surface, texture, 1.0 / size),
     };
-    // What a scene does not have is not looked up: the second term is a copy then, and costs nothing.
-    let smooth = if scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
+    let smooth = if RICH && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
     Gathered {
         point: surface.point,
         normal: surface.normal,
@@ -248,6 +242,14 @@ fn gather<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
     }
 }
 
+/// The colour of a texture.
+#[inline(never)]
+fn textured<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, texture: usize, per_size: f32) -> Vec3<L> {
+    let [u, v] = with_primitive!(scene, id, |kind, i| kind.uv(i, surface));
+    let per_size = L::splat(per_size);
+    texture::sample(&scene.textures[texture], u * per_size, v * per_size)
+}
+
 /// The normal that primitive `id` is shaded by, on the side of the surface's own.
 #[inline(always)]
 pub fn shading_normal<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Vec3<L> {
@@ -261,15 +263,28 @@ pub fn shading_normal<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) ->
 /// Primitive `id`'s surface near the points `p`, and its material.
 #[inline(always)]
 pub fn surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32) {
+    with_primitive!(scene, id, |kind, i| (kind.surface(i, p), kind.material(i)), else rare_surface(scene, id, p))
+}
+
+/// The same for what is not a plane, sphere or triangle; apart, so as not to weigh on those.
+#[inline(never)]
+fn rare_surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32) {
     with_primitive!(scene, id, |kind, i| (kind.surface(i, p), kind.material(i)))
 }
 
 /// Where the checkerboard shows its second colour; see [`Pigment::Checker`].
 #[inline(always)]
 fn odd_cell<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, per_size: f32) -> L::Mask {
-    let q = with_primitive!(scene, id, |kind, i| kind.checker(i, surface)) * L::splat(per_size);
+    let q = with_primitive!(scene, id, |kind, i| kind.checker(i, surface), else rare_checker(scene, id, surface))
+        * L::splat(per_size);
     let half = (q.x.floor() + q.y.floor() + q.z.floor()) * L::splat(0.5);
     !half.floor().eq(half)
+}
+
+/// What is not a plane, sphere or triangle; see [`rare_surface`].
+#[inline(never)]
+fn rare_checker<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Vec3<L> {
+    with_primitive!(scene, id, |kind, i| kind.checker(i, surface))
 }
 
 /// The unit normal where one ray hit a primitive, turned against the ray; zero for a ray that hit nothing.

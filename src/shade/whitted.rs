@@ -93,17 +93,26 @@ impl Workspace {
 ///
 /// A workspace goes with one scene.
 pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
-    let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
-    if scene.plan.refracts {
-        work.start_inside(scene);
+    if scene.plan.rich {
+        if scene.plan.refracts {
+            work.start_inside(scene);
+        }
+        follow::<L, true>(scene, work, observer)
+    } else {
+        follow::<L, false>(scene, work, observer)
     }
+}
+
+/// [`trace_waves`] for a scene that is `RICH` ([`crate::scene::Plan::rich`]) or not.
+fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
+    let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, queue, surfaces, lighting, candidates, .. } = work;
     for axis in radiance.iter_mut() {
         axis[..primary.rays.len].fill(0.0);
     }
     observer.primary(&primary.rays);
     let mut stage = Stage { scene, radiance, queue, surfaces, lighting, candidates };
-    counts.shadow += stage.shade::<L>(primary, 1, observer);
+    counts.shadow += stage.shade::<L, RICH>(primary, 1, observer);
     while let Some((wave, depth, kind)) = stage.queue.take() {
         match kind {
             Kind::Reflection => {
@@ -115,7 +124,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
                 observer.refraction(&wave.rays);
             }
         }
-        counts.shadow += stage.shade::<L>(&wave, depth, observer);
+        counts.shadow += stage.shade::<L, RICH>(&wave, depth, observer);
         stage.queue.give_back(wave);
     }
     counts
@@ -134,23 +143,23 @@ struct Stage<'a> {
 impl Stage<'_> {
     /// Traces and shades a wave, and queues the rays that go on from there; the number of shadow rays.
     #[inline(always)]
-    fn shade<L: Lanes>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
+    fn shade<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
         let scene = self.scene;
-        if !self.arrive::<L>(wave, depth) {
+        if !self.arrive::<L, RICH>(wave, depth) {
             return 0;
         }
         self.lighting.start(scene, wave.rays.len, self.surfaces.glossy);
         let mut shadow = 0;
         for light in 0..scene.lights.len() {
-            shadow += self.lighting.add::<L>(scene, light, wave, self.surfaces, self.candidates, observer);
+            shadow += self.lighting.add::<L, RICH>(scene, light, wave, self.surfaces, self.candidates, observer);
         }
-        self.leave::<L>(wave, depth);
+        self.leave::<L, RICH>(wave, depth);
         shadow
     }
 
     /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
     #[inline(always)]
-    fn arrive<L: Lanes>(&mut self, wave: &Wave, depth: u32) -> bool {
+    fn arrive<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32) -> bool {
         let Some(bounds) = Bounds::of::<L>(&wave.rays) else { return false };
         let Self { scene, radiance, surfaces, candidates, .. } = self;
         let mut any = false;
@@ -158,16 +167,16 @@ impl Stage<'_> {
         nearest_hits::<L>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
             if hit.found.any() {
                 any = true;
-                surfaces.find::<L>(scene, wave, at, hit);
+                surfaces.find::<L, RICH>(scene, wave, at, hit);
             }
             let missed = active & !hit.found;
             if missed.any() {
                 let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
                 let mut seen = sky * L::load(&wave.weight[at..]);
-                if scene.plan.absorbs {
+                if RICH && scene.plan.absorbs {
                     seen = seen.times(endless::<L>(scene, wave, at));
                 }
-                deposit(scene, wave, at, seen, missed, radiance, depth == 1);
+                deposit::<L, RICH>(wave, at, seen, missed, radiance, depth == 1);
             }
         });
         any
@@ -175,9 +184,11 @@ impl Stage<'_> {
 
     /// Gives the light that the surfaces send back to their pixels, and queues the rays that go on.
     #[inline(always)]
-    fn leave<L: Lanes>(&mut self, wave: &Wave, depth: u32) {
+    fn leave<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32) {
         let Self { scene, radiance, queue, surfaces, lighting, .. } = self;
         let last = depth == scene.plan.waves;
+        // What mirrors send on is no more than what came.
+        let mut next = queue.spare();
         for at in (0..wave.rays.len).step_by(L::WIDTH) {
             let lift = L::load(&surfaces.lift[at..]);
             let hit = lift.ge(L::zero());
@@ -189,14 +200,14 @@ impl Stage<'_> {
             if surfaces.glossy {
                 sent = Vec3::load(&lighting.highlight, at).mul_add(L::load(&surfaces.specular[at..]), sent);
             }
-            if scene.plan.absorbs {
+            if RICH && scene.plan.absorbs {
                 sent = sent.times(Vec3::load(&surfaces.bodies.tint, at));
             }
-            deposit(scene, wave, at, sent, hit, radiance, depth == 1);
+            deposit::<L, RICH>(wave, at, sent, hit, radiance, depth == 1);
             if last {
                 continue;
             }
-            if scene.plan.refracts {
+            if RICH && scene.plan.refracts {
                 divide::<L>(scene, wave, surfaces, at, depth + 1, queue);
                 continue;
             }
@@ -205,17 +216,18 @@ impl Stage<'_> {
             if goes_on.any() {
                 let (direction, point) = (Vec3::load(&wave.rays.direction, at), Vec3::load(&surfaces.point, at));
                 let normal = Vec3::load(&surfaces.normal, at);
-                let geometric = surfaces.geometric_normal(scene, at);
-                let direction = match scene.plan.smooth {
+                let geometric = surfaces.geometric_normal::<L, RICH>(scene, at);
+                let direction = match RICH {
                     false => spawn::mirror(direction, normal),
                     true => spawn::mirror_above(direction, normal, geometric),
                 };
                 let origin = geometric.mul_add(lift, point);
                 let (inside, pixel) = (&wave.inside[at..], &wave.pixel[at..]);
                 let leaving = Leaving { origin, direction, weight, tint: color, inside, pixel };
-                queue.append::<L>(&scene.plan, depth + 1, Kind::Reflection, &leaving, goes_on);
+                next.append::<L, RICH>(&scene.plan, &leaving, goes_on);
             }
         }
+        queue.put(depth + 1, next);
     }
 }
 
@@ -224,7 +236,7 @@ impl Stage<'_> {
 fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, depth: u32, queue: &mut Queue) {
     let lift = L::load(&surfaces.lift[at..]);
     let hit = lift.ge(L::zero());
-    let geometric = surfaces.geometric_normal::<L>(scene, at);
+    let geometric = surfaces.geometric_normal::<L, true>(scene, at);
     let bodies = &surfaces.bodies;
     let Split { mirror, reflected, transmitted, refracted } = split(
         Vec3::load(&wave.rays.direction, at),
@@ -265,8 +277,7 @@ fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
 
 /// Adds a packet's radiance to its pixels; `in_order` says that ray i belongs to pixel i.
 #[inline(always)]
-fn deposit<L: Lanes>(
-    scene: &Scene,
+fn deposit<L: Lanes, const RICH: bool>(
     wave: &Wave,
     at: usize,
     rgb: Vec3<L>,
@@ -282,7 +293,7 @@ fn deposit<L: Lanes>(
     // Packing keeps the order, so a packet whose ends are a width apart is a run of pixels; but where two kinds of rays
     // go on, a wave may hold those of several others, one after another.
     let first = usize::from(wave.pixel[at]);
-    let run = !scene.plan.refracts && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1;
+    let run = !RICH && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1;
     if mask.all() && run {
         (Vec3::load(radiance, first) + rgb).store(radiance, first);
         return;

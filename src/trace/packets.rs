@@ -36,22 +36,37 @@ impl<F: Form> Lists<F> {
     #[inline(never)]
     fn visit_rare<L: Lanes, Q: Query<L>>(&self, packet: &Packet<L>, query: &mut Q) {
         each::<F, _, L, Q, true>(&self.quads, packet, query);
+        if query.done() {
+            return;
+        }
         each::<F, _, L, Q, true>(&self.cuboids, packet, query);
+        if query.done() {
+            return;
+        }
         each::<F, _, L, Q, true>(&self.cylinders, packet, query);
+        if query.done() {
+            return;
+        }
         each::<F, _, L, Q, true>(&self.cones, packet, query);
+        if query.done() {
+            return;
+        }
         each::<F, _, L, Q, true>(&self.tori, packet, query);
+        if query.done() {
+            return;
+        }
         each::<F, _, L, Q, true>(&self.fractals, packet, query);
     }
 }
 
-/// Shows every primitive of one kind to the query, until it is done.
+/// Shows every primitive of one kind to the query, which is not done yet, until it is.
 #[inline(always)]
 fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
     records: &List<F, K>,
     packet: &Packet<L>,
     query: &mut Q,
 ) {
-    if records.is_empty() || query.done() {
+    if records.is_empty() {
         return;
     }
     let aim = K::aim(packet.direction);
