@@ -350,7 +350,7 @@ fn values_out_of_range() {
     );
     fault(
         "[materials.a]\ncolor = [1, 1, 1]\nchecker = { colors = [[1, 1, 1], [0, 0, 0]], size = 1 }",
-        "s.toml:3: materials.a.checker: either color or checker, not both",
+        "s.toml:3: materials.a.checker: only one of color, checker and texture",
     );
     fault(
         "[materials.a]\ncolor = [1, 1, -1]",
@@ -424,7 +424,7 @@ fn mesh_faults_name_both_files() {
     let missing = read(&folder(&[("s.toml", MESH)])).unwrap_err();
     assert_eq!(missing, "s.toml:2: mesh[0].file: m.obj: No such file or directory (os error 2)");
     let itself = read(&folder(&[("s.toml", b"mesh = [{ file = \".\" }]")])).unwrap_err();
-    assert!(itself.starts_with("s.toml:1: mesh[0].file: ") && itself.ends_with(": not a file"), "{itself}");
+    assert!(itself.starts_with("s.toml:1: mesh[0].file: ") && itself.ends_with(": not a regular file"), "{itself}");
     let nul = read(&folder(&[("s.toml", br#"mesh = [{ file = "a\u0000\nb" }]"#)])).unwrap_err();
     assert_eq!(nul, "s.toml:1: mesh[0].file: a\\u{0}\\nb: file name contained an unexpected NUL byte");
 }
@@ -434,7 +434,7 @@ fn mesh_files_share_one_limit() {
     let f = folder(&[("s.toml", b"[[mesh]]\nfile = \"a.obj\"\n[[mesh]]\nfile = \"b.obj\"\n"), ("b.obj", b"")]);
     fs::write(f.path().join("a.obj"), "v 0 0 0\nf 1 1 1\n").unwrap();
     fs::File::options().write(true).open(f.path().join("b.obj")).unwrap().set_len(scene::MAX_OBJ_BYTES).unwrap();
-    assert_eq!(read(&f).unwrap_err(), "s.toml:4: mesh[1].file: b.obj: longer than 268435440 bytes");
+    assert_eq!(read(&f).unwrap_err(), "s.toml:4: mesh[1].file: b.obj: longer than 1073741808 bytes");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn depth_one_does_not_look_into_mirrors() {
             let mut scene = scene.clone();
             scene.settings.max_depth = 1;
             scene.sky = Sky::Color(Vec3::ZERO);
-            scene.materials.iter_mut().for_each(|m| m.reflectance = reflectance);
+            scene.materials.iter_mut().for_each(|m| (m.reflectance, m.transmission) = (reflectance, 0.0));
             scene
         };
         for kernel in Kernel::ALL {

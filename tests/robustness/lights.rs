@@ -97,7 +97,7 @@ fn seen_is_lit(mut scene: Description) {
     scene.lights = vec![light(scene.camera.eye)];
     scene.settings = Settings { max_depth: 1, attenuation: false, ambient: Vec3::ZERO };
     scene.sky = Sky::Color(Vec3::ZERO);
-    scene.materials.iter_mut().for_each(|m| m.reflectance *= 0.5);
+    scene.materials.iter_mut().for_each(|m| (m.reflectance, m.transmission) = (0.5 * m.reflectance, 0.0));
     let film = picture(&scene, Kernel::X8, SIZE[0], SIZE[1]);
     let camera = Camera::new(&scene.camera, SIZE[0] as f32 / SIZE[1] as f32);
     let hits = primary_hits(&compiled(&scene), &camera, Kernel::X8, SIZE[0], SIZE[1]);
@@ -179,7 +179,8 @@ fn without_lights_there_is_ambient_light_and_sky() {
         scene.settings.ambient = vec3(0.5, 0.25, 0.125);
         scene.sky = Sky::Color(vec3(1.0, 2.0, 4.0));
         scene.materials.iter_mut().for_each(|m| {
-            (m.reflectance, m.pigment) = (0.0, raypacket::scene::Pigment::Color(Vec3::ONE));
+            (m.reflectance, m.transmission) = (0.0, 0.0);
+            m.pigment = raypacket::scene::Pigment::Color(Vec3::ONE);
         });
         for kernel in Kernel::ALL {
             let film = picture(&scene, kernel, SIZE[0], SIZE[1]);

@@ -20,9 +20,10 @@ fn mapped(description: &Description, point: impl Fn(Vec3) -> Vec3, scale: f32) -
     scene
 }
 
-/// The built-in scenes, and one with triangles.
+/// The built-in scenes of planes and spheres, and one with triangles.
 fn scenes() -> Vec<Description> {
     let mut scenes = all_builtins();
+    scenes.retain(|s| s.primitives() == s.planes.len() + s.spheres.len());
     let mut rng = Pcg::new(21);
     let mut soup = load("classic").expect("a built-in scene");
     soup.spheres.clear();
