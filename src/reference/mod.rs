@@ -98,10 +98,9 @@ impl Tracer {
         scene.cones.iter().for_each(|c| primitives.push(Box::new(cone::Cone::new(c))));
         scene.tori.iter().for_each(|t| primitives.push(Box::new(torus::Torus::new(t))));
         scene.fractals.iter().for_each(|f| primitives.push(Box::new(fractal::Fractal::new(f))));
-        let transmits =
-            |p: &Box<dyn Primitive>| scene.materials.get(p.material()).is_some_and(|m| m.transmission > 0.0);
+        let transmits = |m: usize| scene.materials.get(m).is_some_and(|m| m.transmission > 0.0);
         Self {
-            refracts: primitives.iter().any(transmits),
+            refracts: primitives.iter().any(|p| transmits(p.material())),
             primitives,
             materials: scene.materials.clone(),
             textures: scene.textures.clone(),

@@ -42,7 +42,7 @@ pub struct Segment {
 const MOST_SEGMENTS: usize = 1000;
 
 /// The segments an eye ray sets off: first the eye ray's, then those of every further ray before those that it sets
-/// off itself. At most [`MOST_SEGMENTS`] rays are followed; absorption is not taken into account.
+/// off itself. The first thousand are followed; absorption is not taken into account.
 pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
     let mut tree = Tree { scene, probe: Probe::default(), segments: Vec::new(), waiting: Vec::new() };
     let inside = match scene.plan.refracts {

@@ -268,8 +268,8 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
 #[inline(never)]
 fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
     let mut absorption = [[0.0; 8]; 3];
-    for lane in 0..L::WIDTH {
-        let sigma = scene.bodies[usize::from(wave.inside[at + lane].body())].absorption;
+    for (lane, inside) in wave.inside[at..at + L::WIDTH].iter().enumerate() {
+        let sigma = scene.bodies[usize::from(inside.body())].absorption;
         (0..3).for_each(|axis| absorption[axis][lane] = sigma[axis]);
     }
     absorbed(Vec3::load(&wave.tint, at), Vec3::load(&absorption, 0), L::splat(0.5 * f32::MAX))
