@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Scene files (.toml) or built-in scenes
+    /// Scene files (.toml, .nff, .obj) or built-in scenes
     #[arg(value_name = "SCENE", default_value = DEFAULT_SCENE)]
     scenes: Vec<String>,
     /// The width and height in pixels of the image whose rays are traced

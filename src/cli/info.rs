@@ -7,7 +7,7 @@ use std::fmt;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// A scene file (.toml) or a built-in scene
+    /// A scene file (.toml, .nff, .obj) or a built-in scene
     #[arg(default_value = DEFAULT_SCENE)]
     scene: String,
 }

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// A scene file (.toml) or a built-in scene
+    /// A scene file (.toml, .nff, .obj) or a built-in scene
     #[arg(default_value = DEFAULT_SCENE)]
     scene: String,
     /// The picture: FILE.png (8-bit sRGB) or FILE.exr (linear 32-bit floats)

@@ -12,7 +12,7 @@ const MOST_PIXELS: usize = 1 << 22;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Scene files (.toml) or built-in scenes [default: all built-in scenes]
+    /// Scene files (.toml, .nff, .obj) or built-in scenes [default: all built-in scenes]
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
     /// The width and height in pixels of the image that is compared

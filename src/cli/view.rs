@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// A scene file (.toml) or a built-in scene
+    /// A scene file (.toml, .nff, .obj) or a built-in scene
     #[arg(default_value = DEFAULT_SCENE)]
     pub scene: String,
     /// The window's width and height in pixels
