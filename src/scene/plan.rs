@@ -29,7 +29,7 @@ pub struct Plan {
     pub rare: bool,
     /// Whether any triangle has vertex normals.
     pub smooth: bool,
-    /// Whether shading needs more than one normal and one way on from a hit: anything is smooth or transmits.
+    /// Whether anything is rare, smooth or transmits: all that a plain scene is traced and shaded without.
     pub rich: bool,
     /// How many segments a path may have: 1 where nothing reflects or transmits, else the scene's `max_depth`.
     pub waves: u32,
@@ -72,7 +72,10 @@ impl Plan {
         Self {
             primitives,
             rare: one_sided || primitives[3..].iter().any(|n| *n > 0),
-            rich: glasses > 0 || description.meshes.iter().any(|m| !m.normals.is_empty()),
+            rich: one_sided
+                || primitives[3..].iter().any(|n| *n > 0)
+                || glasses > 0
+                || description.meshes.iter().any(|m| !m.normals.is_empty()),
             smooth: description.meshes.iter().any(|m| !m.normals.is_empty()),
             waves: if mirrors + glasses == 0 { 1 } else { description.settings.max_depth },
             refracts: glasses > 0,

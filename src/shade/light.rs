@@ -68,7 +68,7 @@ impl Lighting {
         };
         if count > 0 {
             observer.shadow(&self.rays);
-            self.collect::<L>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
+            self.collect::<L, RICH>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
         }
         count
     }
@@ -157,7 +157,7 @@ impl Lighting {
 
     /// Traces the shadow rays, and adds what the light does where nothing blocks them.
     #[inline(always)]
-    fn collect<L: Lanes>(
+    fn collect<L: Lanes, const RICH: bool>(
         &mut self,
         scene: &Scene,
         light: &Light,
@@ -168,7 +168,7 @@ impl Lighting {
     ) {
         let Self { rays, irradiance, highlight, arriving, cosine } = self;
         let power = Vec3::<L>::splat(light.power);
-        any_hits::<L>(scene, rays, bounds, scratch, |at, active, settled| {
+        any_hits::<L, RICH>(scene, rays, bounds, scratch, |at, active, settled| {
             let lit = active & !settled;
             if !lit.any() {
                 return;

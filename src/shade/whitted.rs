@@ -164,7 +164,7 @@ impl Stage<'_> {
         let Self { scene, radiance, surfaces, candidates, .. } = self;
         let mut any = false;
         surfaces.start(wave.rays.len);
-        nearest_hits::<L>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
+        nearest_hits::<L, RICH>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
             if hit.found.any() {
                 any = true;
                 surfaces.find::<L, RICH>(scene, wave, at, hit);

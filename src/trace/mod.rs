@@ -25,10 +25,14 @@ pub(crate) use query::Nearest;
 /// rays of the batch, unless its own origin is NaN. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
     let Some(bounds) = Bounds::of::<L>(rays) else { return };
-    nearest_hits::<L>(scene, rays, &bounds, scratch, |at, active, hit| {
+    let take = |at: usize, active, hit: &Nearest<L>| {
         let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
         L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
-    });
+    };
+    match scene.plan.rare {
+        false => nearest_hits::<L, false>(scene, rays, &bounds, scratch, take),
+        true => nearest_hits::<L, true>(scene, rays, &bounds, scratch, take),
+    }
 }
 
 /// Whether anything lies in the interval of each active ray, in packets of `L::WIDTH`; a packet is left as soon as
@@ -37,39 +41,39 @@ pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, 
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
     let Some(bounds) = Bounds::of::<L>(rays) else { return };
-    any_hits::<L>(scene, rays, &bounds, scratch, |at, active, settled| blocked.set(at, active.bits(), settled.bits()));
+    let take = |at, active: L::Mask, settled: L::Mask| blocked.set(at, active.bits(), settled.bits());
+    match scene.plan.rare {
+        false => any_hits::<L, false>(scene, rays, &bounds, scratch, take),
+        true => any_hits::<L, true>(scene, rays, &bounds, scratch, take),
+    }
 }
 
-/// [`intersect()`] for rays whose bounds are known; `take` gets every packet's answer while it is in registers.
+/// [`intersect()`] for rays whose bounds are known, `RARE` where the plan is (it may be without that); `take` gets every packet's answer while it is in registers.
 #[inline(always)]
-pub(crate) fn nearest_hits<L: Lanes>(
+pub(crate) fn nearest_hits<L: Lanes, const RARE: bool>(
     scene: &Scene,
     rays: &RayBatch,
     bounds: &Bounds,
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
-    match (scratch.gather::<L>(scene, bounds), scene.plan.rare) {
-        (View::Shared(candidates), false) => packets::nearest::<_, L, false>(candidates, rays, take),
-        (View::Apart(candidates), false) => packets::nearest::<_, L, false>(candidates, rays, take),
-        (View::Shared(candidates), true) => packets::nearest::<_, L, true>(candidates, rays, take),
-        (View::Apart(candidates), true) => packets::nearest::<_, L, true>(candidates, rays, take),
+    match scratch.gather::<L>(scene, bounds) {
+        View::Shared(candidates) => packets::nearest::<_, L, RARE>(candidates, rays, take),
+        View::Apart(candidates) => packets::nearest::<_, L, RARE>(candidates, rays, take),
     }
 }
 
 /// [`occluded()`] in the same way.
 #[inline(always)]
-pub(crate) fn any_hits<L: Lanes>(
+pub(crate) fn any_hits<L: Lanes, const RARE: bool>(
     scene: &Scene,
     rays: &RayBatch,
     bounds: &Bounds,
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
-    match (scratch.gather::<L>(scene, bounds), scene.plan.rare) {
-        (View::Shared(candidates), false) => packets::any::<_, L, false>(candidates, rays, take),
-        (View::Apart(candidates), false) => packets::any::<_, L, false>(candidates, rays, take),
-        (View::Shared(candidates), true) => packets::any::<_, L, true>(candidates, rays, take),
-        (View::Apart(candidates), true) => packets::any::<_, L, true>(candidates, rays, take),
+    match scratch.gather::<L>(scene, bounds) {
+        View::Shared(candidates) => packets::any::<_, L, RARE>(candidates, rays, take),
+        View::Apart(candidates) => packets::any::<_, L, RARE>(candidates, rays, take),
     }
 }
