@@ -47,6 +47,7 @@
 //! - [`render`]: camera, tiles, film, tone mapping, picture files
 //! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
 //! - [`trace`]: the two queries, over a compiled scene
+//! - [`bvh`]: the acceleration structure: build and layout
 //! - [`scene`]: what the user wrote, its readers and rules, the built-in scenes, `compile`, the plan
 //! - [`geometry`]: a file a primitive: storage, tests, surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
@@ -71,6 +72,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod bvh;
 pub mod files;
 pub mod geometry;
 pub mod math;

@@ -1,0 +1,146 @@
+//! The binary tree: split until a block is filled.
+
+use rayon::join;
+
+use super::aabb::{Aabb, Bounds};
+use super::bins::Bins;
+use super::collapse::{Choices, Costs};
+use super::refs::{Extent, Ref};
+use super::{BLOCK, Class, MOST_DEPTH};
+
+/// A range of one class that is no longer is not split further.
+const SMALLEST: usize = 2;
+/// Ranges of this length and more are worth a task of their own.
+const TASK: usize = 1 << 12;
+
+/// A node of the binary tree.
+///
+/// A range of n primitives owns 2 n − 1 places: its node, then its left part's, then its right part's. So the tree
+/// needs no links, and threads write to slices of their own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Binary {
+    pub bounds: Aabb,
+    /// The number of primitives below.
+    pub len: u32,
+    /// How it becomes wide nodes and blocks.
+    pub choices: Choices,
+}
+
+impl Default for Binary {
+    fn default() -> Self {
+        Self { bounds: Aabb { min: glam::Vec3::ZERO, max: glam::Vec3::ZERO }, len: 0, choices: Choices::default() }
+    }
+}
+
+/// The finished binary tree over `order`, a permutation of the primitives.
+pub(super) struct Tree {
+    pub nodes: Vec<Binary>,
+    pub order: Vec<u32>,
+}
+
+/// What is known of a subtree when it is done.
+struct Done {
+    costs: Costs,
+    /// The class of its primitives, if they have one in common.
+    class: Option<Class>,
+}
+
+/// A range to build a subtree over.
+struct Range<'a> {
+    refs: &'a mut [Ref],
+    /// As long as `refs`: where the parts go.
+    spare: &'a mut [Ref],
+    order: &'a mut [u32],
+    nodes: &'a mut [Binary],
+    extent: Extent,
+    depth: usize,
+}
+
+/// Builds the tree; there must be at least one primitive.
+pub(super) fn build(mut refs: Vec<Ref>) -> Tree {
+    let len = refs.len();
+    let mut spare = vec![Ref::default(); len];
+    let mut tree = Tree { nodes: vec![Binary::default(); 2 * len - 1], order: vec![0; len] };
+    let extent = extent(&refs);
+    let range =
+        Range { refs: &mut refs, spare: &mut spare, order: &mut tree.order, nodes: &mut tree.nodes, extent, depth: 0 };
+    subtree(range, &mut Bins::default());
+    tree
+}
+
+fn extent(refs: &[Ref]) -> Extent {
+    if refs.len() < 2 * TASK {
+        return Extent::of(refs);
+    }
+    let (a, b) = refs.split_at(refs.len() / 2);
+    let (a, b) = join(|| extent(a), || extent(b));
+    a.union(b)
+}
+
+fn subtree(range: Range, bins: &mut Bins) -> Done {
+    let len = range.refs.len();
+    let bounds = range.extent.bounds.aabb();
+    let one_class = len <= BLOCK && range.refs.iter().all(|r| r.class() == range.refs[0].class());
+    if one_class && len <= SMALLEST {
+        range.order.iter_mut().zip(range.refs.iter()).for_each(|(to, r)| *to = r.index());
+        range.nodes[0] = Binary { bounds, len: len as u32, choices: Choices::LEAF };
+        return Done { costs: Costs::leaf(bounds, len), class: Some(range.refs[0].class()) };
+    }
+    let ([left, right], node) = range.split(bins, one_class);
+    let (left, right) = if len >= TASK {
+        join(|| subtree(left, &mut Bins::default()), || subtree(right, &mut Bins::default()))
+    } else {
+        (subtree(left, bins), subtree(right, bins))
+    };
+    let class = left.class.filter(|_| left.class == right.class);
+    let (costs, choices) = Costs::parent(&left.costs, &right.costs, bounds, class.map(|_| len));
+    *node = Binary { bounds, len: len as u32, choices };
+    Done { costs, class }
+}
+
+impl<'a> Range<'a> {
+    /// The two parts, and the place of the range's own node.
+    fn split(self, bins: &mut Bins, one_class: bool) -> ([Self; 2], &'a mut Binary) {
+        let len = self.refs.len();
+        // Halving by count takes ⌈log₂ len⌉ levels down to single primitives: free choice ends when just these are left.
+        let free = self.depth + len.next_power_of_two().ilog2() as usize + 1 < MOST_DEPTH;
+        let (left, extents) = if free && len <= BLOCK && !one_class {
+            let class = self.refs[0].class();
+            partition(self.refs, self.spare, |r| r.class() == class)
+        } else if let Some(split) = free.then(|| bins.split(self.refs, &self.extent)).flatten() {
+            partition(self.refs, self.spare, |r| split.is_left(r))
+        } else {
+            self.spare.copy_from_slice(self.refs);
+            let (left, right) = self.refs.split_at(len / 2);
+            (left.len(), [Extent::of(left), Extent::of(right)])
+        };
+        // The parts are in the spare memory now, and what they were copied from is spare.
+        let (refs, spare) = (self.spare.split_at_mut(left), self.refs.split_at_mut(left));
+        let order = self.order.split_at_mut(left);
+        let (node, nodes) = self.nodes.split_first_mut().expect("a range has nodes");
+        let nodes = nodes.split_at_mut(2 * left - 1);
+        let depth = self.depth + 1;
+        let [a, b] = extents;
+        let left = Range { refs: refs.0, spare: spare.0, order: order.0, nodes: nodes.0, extent: a, depth };
+        let right = Range { refs: refs.1, spare: spare.1, order: order.1, nodes: nodes.1, extent: b, depth };
+        ([left, right], node)
+    }
+}
+
+/// Copies the primitives to the left side from the front on, the others from the back on.
+#[inline(always)]
+fn partition(from: &[Ref], to: &mut [Ref], is_left: impl Fn(&Ref) -> bool) -> (usize, [Extent; 2]) {
+    let empty = Extent { bounds: Bounds::EMPTY, centers: Bounds::EMPTY };
+    let mut extents = [empty; 2];
+    let (mut left, mut right) = (0, to.len());
+    for r in from {
+        let is_left = is_left(r);
+        right -= usize::from(!is_left);
+        to[if is_left { left } else { right }] = *r;
+        left += usize::from(is_left);
+        let extent = &mut extents[usize::from(!is_left)];
+        extent.bounds.add(&r.bounds());
+        extent.centers.add_point(r.center());
+    }
+    (left, extents)
+}

@@ -1,0 +1,277 @@
+//! The acceleration structure: how it is built and how it lies in memory.
+//!
+//! 1. `refs`: the primitives' boxes, 32 bytes each.
+//! 2. `bins`, `build`: a binary tree by the surface area heuristic, in parallel.
+//! 3. `collapse`: which of its nodes become nodes with eight children and which become blocks, at the least expected
+//!    cost.
+//! 4. `layout`: [`Node`]s and blocks side by side, for eight lanes.
+//!
+//! The tree is the same for every number of threads. No input is too bad for it: depth is bounded by [`MOST_DEPTH`],
+//! memory while building by about 200 bytes a primitive beside the finished tree.
+
+mod aabb;
+mod bins;
+mod build;
+mod collapse;
+mod layout;
+mod refs;
+mod stats;
+#[cfg(test)]
+mod tests;
+
+use glam::Vec3;
+
+pub use aabb::Aabb;
+pub use stats::Stats;
+
+use crate::math::NONE;
+
+/// The children of a node.
+pub const WIDTH: usize = 8;
+/// The most primitives of a block.
+pub const BLOCK: usize = 8;
+/// The most nodes on a way from the root to a block, whatever the primitives.
+///
+/// By design: the binary tree is split freely only while what is left could still be halved by count within this
+/// depth, and a wide node is at least one binary one.
+pub const MOST_DEPTH: usize = 64;
+
+/// What it costs a ray to visit a node: the unit of the other costs.
+pub const NODE_COST: f64 = 1.0;
+/// What it costs a ray to visit a block, however many primitives are in it: load, transform, a test of eight lanes.
+pub const BLOCK_COST: f64 = 1.5;
+/// What every primitive of a block adds: packets test those that a cull leaves one by one.
+pub const PRIMITIVE_COST: f64 = 0.25;
+
+/// What a primitive is to the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// Copied to [`TriangleBlock`]s.
+    Triangle,
+    /// Copied to [`SphereBlock`]s.
+    Sphere,
+    /// Known by its id alone.
+    Other,
+}
+
+/// What a child is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A node.
+    Node,
+    /// A block of triangles.
+    Triangles,
+    /// A block of spheres.
+    Spheres,
+    /// A block of other primitives.
+    Others,
+}
+
+/// A child of a node: what it is in the two highest bits, and an index in the other thirty: of a node, or of a block
+/// of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Child(u32);
+
+impl Child {
+    /// No child. Its box is empty, so that no ray gets to ask what it is.
+    pub const EMPTY: Self = Self(u32::MAX);
+
+    /// Node `i`.
+    pub fn node(i: usize) -> Self {
+        Self::new(0, i)
+    }
+
+    /// Triangle block `i`.
+    pub fn triangles(i: usize) -> Self {
+        Self::new(1, i)
+    }
+
+    /// Sphere block `i`.
+    pub fn spheres(i: usize) -> Self {
+        Self::new(2, i)
+    }
+
+    /// Block `i` of other primitives.
+    pub fn others(i: usize) -> Self {
+        Self::new(3, i)
+    }
+
+    fn new(kind: u32, i: usize) -> Self {
+        debug_assert!(i < MOST_PRIMITIVES);
+        Self(kind << 30 | i as u32)
+    }
+
+    /// What it is; nothing sensible for [`Child::EMPTY`].
+    #[inline(always)]
+    pub fn kind(self) -> Kind {
+        match self.0 >> 30 {
+            0 => Kind::Node,
+            1 => Kind::Triangles,
+            2 => Kind::Spheres,
+            _ => Kind::Others,
+        }
+    }
+
+    /// Which one of its kind.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        (self.0 & (u32::MAX >> 2)) as usize
+    }
+}
+
+/// The most primitives a tree can hold: 2³⁰ − 1, so that every index fits a [`Child`].
+pub const MOST_PRIMITIVES: usize = (1 << 30) - 1;
+
+/// Eight children side by side, in 256 bytes.
+///
+/// Used children come first. The others are [`Child::EMPTY`] and have boxes from +∞ to −∞.
+#[repr(C, align(64))]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// The boxes' least coordinates: component, child.
+    pub min: [[f32; WIDTH]; 3],
+    /// The boxes' greatest coordinates.
+    pub max: [[f32; WIDTH]; 3],
+    /// The children.
+    pub child: [Child; WIDTH],
+}
+
+impl Node {
+    /// Without children.
+    pub const EMPTY: Self =
+        Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3], child: [Child::EMPTY; WIDTH] };
+
+    fn set(&mut self, lane: usize, bounds: Aabb, child: Child) {
+        for axis in 0..3 {
+            self.min[axis][lane] = bounds.min[axis];
+            self.max[axis][lane] = bounds.max[axis];
+        }
+        self.child[lane] = child;
+    }
+
+    /// The box of a child.
+    pub fn bounds(&self, lane: usize) -> Aabb {
+        Aabb { min: self.min.map(|c| c[lane]).into(), max: self.max.map(|c| c[lane]).into() }
+    }
+
+    /// The number of used children.
+    pub fn len(&self) -> usize {
+        self.child.iter().take_while(|&&child| child != Child::EMPTY).count()
+    }
+
+    /// Whether there is no child.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Up to eight triangles side by side, in 320 bytes; ids ascend.
+///
+/// Unused lanes have all corners at 0, hence no area, and are never hit; their id is [`NONE`].
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleBlock {
+    /// Corner, component, lane.
+    pub corners: [[[f32; BLOCK]; 3]; 3],
+    /// Primitive ids.
+    pub id: [u32; BLOCK],
+}
+
+impl TriangleBlock {
+    /// Without triangles.
+    pub const EMPTY: Self = Self { corners: [[[0.0; BLOCK]; 3]; 3], id: [NONE; BLOCK] };
+}
+
+/// Up to eight spheres side by side, in 160 bytes; ids ascend.
+///
+/// Unused lanes have their centre at 0 and the radius NaN: so is then r², the discriminant, and no comparison with it
+/// is true, wherever the ray starts. (A radius of 0 or below would not do: squared it is a point or a sphere that a
+/// ray can hit.) Their id is [`NONE`].
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Debug)]
+pub struct SphereBlock {
+    /// Centres: component, lane.
+    pub center: [[f32; BLOCK]; 3],
+    /// Radii.
+    pub radius: [f32; BLOCK],
+    /// Primitive ids.
+    pub id: [u32; BLOCK],
+}
+
+impl SphereBlock {
+    /// Without spheres.
+    pub const EMPTY: Self = Self { center: [[0.0; BLOCK]; 3], radius: [f32::NAN; BLOCK], id: [NONE; BLOCK] };
+}
+
+/// Up to eight primitives of other kinds, by id; ids ascend, unused ones are [`NONE`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OtherBlock {
+    /// Primitive ids.
+    pub id: [u32; BLOCK],
+}
+
+/// What a tree is built from: primitives 0, 1 … `len` − 1.
+pub trait Source: Sync {
+    /// The number of primitives, at most [`MOST_PRIMITIVES`].
+    fn len(&self) -> usize;
+    /// Whether there is none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// A box around primitive `i`. What is not finite counts as ±[`f32::MAX`].
+    fn bounds(&self, i: usize) -> Aabb;
+    /// What primitive `i` is.
+    fn class(&self, i: usize) -> Class;
+    /// Its id, which rises with `i`.
+    fn id(&self, i: usize) -> u32;
+    /// Its corners; asked only of a triangle.
+    fn triangle(&self, i: usize) -> [Vec3; 3];
+    /// Its centre and radius; asked only of a sphere.
+    fn sphere(&self, i: usize) -> (Vec3, f32);
+}
+
+/// The tree.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    /// Nodes, the root first, a child after its parent.
+    pub nodes: Vec<Node>,
+    /// Blocks of triangles.
+    pub triangles: Vec<TriangleBlock>,
+    /// Blocks of spheres.
+    pub spheres: Vec<SphereBlock>,
+    /// Blocks of other primitives.
+    pub others: Vec<OtherBlock>,
+    /// Where to start: a node, a block when there is but one, [`Child::EMPTY`] when there is none.
+    pub root: Child,
+    /// The box around everything.
+    pub bounds: Aabb,
+    /// The most nodes on a way from the root to a block; at most [`MOST_DEPTH`].
+    pub depth: usize,
+}
+
+impl Bvh {
+    /// Builds the tree, in the caller's thread pool. Panics with more than [`MOST_PRIMITIVES`].
+    pub fn build(source: &impl Source) -> Self {
+        assert!(source.len() <= MOST_PRIMITIVES, "too many primitives");
+        if source.is_empty() {
+            return Self {
+                nodes: Vec::new(),
+                triangles: Vec::new(),
+                spheres: Vec::new(),
+                others: Vec::new(),
+                root: Child::EMPTY,
+                bounds: Aabb::EMPTY,
+                depth: 0,
+            };
+        }
+        layout::layout(source, &build::build(refs::collect(source)))
+    }
+
+    /// The memory of nodes and blocks.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..])
+            + size_of_val(&self.triangles[..])
+            + size_of_val(&self.spheres[..])
+            + size_of_val(&self.others[..])
+    }
+}
