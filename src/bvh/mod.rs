@@ -112,6 +112,18 @@ impl Child {
         }
     }
 
+    /// As a number.
+    #[inline(always)]
+    pub(crate) fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// From [`Child::bits`].
+    #[inline(always)]
+    pub(crate) fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
     /// Which one of its kind.
     #[inline(always)]
     pub fn index(self) -> usize {

@@ -10,7 +10,7 @@ mod balls;
 pub mod cone;
 pub mod cuboid;
 pub mod cylinder;
-mod face;
+pub(crate) mod face;
 pub mod fractal;
 mod frame;
 pub mod plane;
@@ -29,7 +29,7 @@ pub use fractal::Fractals;
 pub use frame::frame;
 pub use plane::Planes;
 pub use quad::Quads;
-pub use sphere::Spheres;
+pub use sphere::{SphereRecord, Spheres};
 pub use torus::Tori;
 pub use triangle::Triangles;
 

@@ -159,6 +159,12 @@ pub fn one_sided<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
     inside.any().then_some((t, inside))
 }
 
+/// Whether any lane's ray passes through its sphere.
+#[inline(always)]
+pub fn passes<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>) -> bool {
+    roots(seen, direction).is_some()
+}
+
 /// Where the ray enters and leaves, and the lanes in which it may; `None` when it cannot in any.
 #[inline(always)]
 fn roots<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>) -> Option<(L, L, L::Mask)> {

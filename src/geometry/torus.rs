@@ -273,7 +273,8 @@ struct Span<L: Lanes> {
 }
 
 impl<L: Lanes> Span<L> {
-    /// `None` when there is none in any lane; `ray` is where the ray starts and ends.
+    /// `None` when there is none in any lane; `ray` is where the ray starts and ends. Its end leaves spans out, but cuts
+    /// none short: where a search ends must not change where it finds the root.
     #[inline(always)]
     fn around(kappa: f32, q: Vec3<L>, d: Vec3<L>, ray: [L; 2]) -> Option<Self> {
         let radius = L::splat((1.0 + kappa) * (1.0 + SLACK));
@@ -290,8 +291,8 @@ impl<L: Lanes> Span<L> {
         let [one, other] = [(-height - q.z) * inverse, (height - q.z) * inverse];
         let entry = (-half).max(one.min(other));
         let low = entry.max(ray[0]);
-        let high = half.min(one.max(other)).min(ray[1]);
-        let live = live & low.lt(high);
+        let high = half.min(one.max(other));
+        let live = live & low.lt(high) & low.lt(ray[1]);
         live.any().then_some(Self { ends: [low, high], entered: entry.gt(ray[0]), live })
     }
 }

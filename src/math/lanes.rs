@@ -100,6 +100,8 @@ pub trait Lanes:
     }
     /// Lanes whose id is `id`; reads the first `WIDTH` ids. Panics when there are fewer.
     fn id_mask(ids: &[u32], id: u32) -> Self::Mask;
+    /// The first `WIDTH` ids, as bits. Panics when there are fewer.
+    fn load_ids(from: &[u32]) -> Self;
     /// Writes the lanes' bits, as ids, to the start of a slice. Panics when it is shorter.
     fn store_ids(self, to: &mut [u32]);
     /// Writes the first `WIDTH` distances and ids where the mask is true. Panics when there are fewer.
@@ -206,6 +208,10 @@ impl Lanes for f32 {
     #[inline(always)]
     fn id_mask(ids: &[u32], id: u32) -> bool {
         ids[0] == id
+    }
+    #[inline(always)]
+    fn load_ids(from: &[u32]) -> Self {
+        f32::from_bits(from[0])
     }
     #[inline(always)]
     fn store_ids(self, to: &mut [u32]) {
@@ -331,6 +337,11 @@ macro_rules! wide_lanes {
             fn id_mask(ids: &[u32], id: u32) -> Self {
                 let ids: [u32; $width] = ids[..$width].try_into().expect("the slice has this length");
                 cast::<$int, $float>($int::new(ids).simd_eq($int::splat(id)))
+            }
+            #[inline(always)]
+            fn load_ids(from: &[u32]) -> Self {
+                let ids: [u32; $width] = from[..$width].try_into().expect("the slice has this length");
+                cast::<$int, $float>($int::new(ids))
             }
             #[inline(always)]
             fn store_ids(self, to: &mut [u32]) {

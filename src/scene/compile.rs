@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use super::plan::Structure;
 use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
+use crate::bvh::{Aabb, Bvh, Class, Source};
 use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
 
 /// A compiled scene: SoA arrays, ready to trace.
@@ -32,6 +34,10 @@ pub struct Scene {
     pub fractals: Fractals,
     /// The first id of every kind.
     pub first: First,
+    /// Boxes around all from the quads on; see [`Scene::bounds`].
+    pub boxes: Vec<Aabb>,
+    /// The tree of all but the planes, where the plan asks for one.
+    pub bvh: Option<Bvh>,
     /// Materials, by index.
     pub materials: Vec<Material>,
     /// Transparent bodies by number; 0 is what is around them all.
@@ -140,6 +146,14 @@ pub(crate) use with_primitive;
 /// # Errors
 /// [`Invalid`] when [`check`] finds fault with it.
 pub fn compile(description: &Description) -> Result<Scene, Invalid> {
+    compile_as(description, None)
+}
+
+/// The same, with a structure of the caller's choice instead of the plan's.
+///
+/// # Errors
+/// [`Invalid`] when [`check`] finds fault with it.
+pub fn compile_as(description: &Description, structure: Option<Structure>) -> Result<Scene, Invalid> {
     check(description)?;
     let mut planes = Planes::default();
     for p in &description.planes {
@@ -184,6 +198,17 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     first.cones = first.cylinders + cylinders.len() as u32;
     first.tori = first.cones + cones.len() as u32;
     first.fractals = first.tori + tori.len() as u32;
+    let boxes = (0..quads.len())
+        .map(|i| quads.bounds(i))
+        .chain((0..cuboids.len()).map(|i| cuboids.bounds(i)))
+        .chain((0..cylinders.len()).map(|i| cylinders.bounds(i)))
+        .chain((0..cones.len()).map(|i| cones.bounds(i)))
+        .chain((0..tori.len()).map(|i| tori.bounds(i)))
+        .chain((0..fractals.len()).map(|i| fractals.bounds(i)))
+        .map(|[min, max]| Aabb { min, max })
+        .collect();
+    let mut plan = Plan::of(description);
+    plan.structure = structure.unwrap_or(plan.structure);
     let mut bodies = vec![Body { ior: 1.0, absorption: Vec3::ZERO }];
     let body = |m: &Material| {
         if m.transmission <= 0.0 {
@@ -193,7 +218,7 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
         (bodies.len() - 1) as u16
     };
     let body_of = description.materials.iter().map(body).collect();
-    Ok(Scene {
+    let mut scene = Scene {
         planes,
         spheres,
         triangles,
@@ -204,6 +229,8 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
         tori,
         fractals,
         first,
+        boxes,
+        bvh: None,
         materials: description.materials.clone(),
         bodies,
         body_of,
@@ -211,8 +238,50 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
         lights: description.lights.clone(),
         sky: description.sky.clone(),
         settings: description.settings,
-        plan: Plan::of(description),
-    })
+        plan,
+    };
+    if scene.plan.structure == Structure::Tree {
+        scene.bvh = Some(Bvh::build(&Bounded(&scene)));
+    }
+    Ok(scene)
+}
+
+/// All of a scene's primitives that have bounds, for the tree.
+struct Bounded<'a>(&'a Scene);
+
+impl Source for Bounded<'_> {
+    fn len(&self) -> usize {
+        let Self(scene) = self;
+        scene.spheres.len() + scene.triangles.len() + scene.boxes.len()
+    }
+    fn bounds(&self, i: usize) -> Aabb {
+        let (Self(scene), id) = (self, self.id(i));
+        if id < scene.first.triangles {
+            let (center, radius) = self.sphere(i);
+            return Aabb { min: center - radius, max: center + radius };
+        }
+        if id < scene.first.quads {
+            return self.triangle(i).into_iter().fold(Aabb::EMPTY, Aabb::extend);
+        }
+        scene.boxes[(id - scene.first.quads) as usize]
+    }
+    fn class(&self, i: usize) -> Class {
+        let (Self(scene), id) = (self, self.id(i));
+        match id {
+            _ if id < scene.first.triangles => Class::Sphere,
+            _ if id < scene.first.quads => Class::Triangle,
+            _ => Class::Other,
+        }
+    }
+    fn id(&self, i: usize) -> u32 {
+        self.0.first.spheres + i as u32
+    }
+    fn triangle(&self, i: usize) -> [Vec3; 3] {
+        self.0.triangles.corners(i - self.0.spheres.len())
+    }
+    fn sphere(&self, i: usize) -> (Vec3, f32) {
+        (self.0.spheres.center(i), self.0.spheres.radius(i))
+    }
 }
 
 /// Adds a mesh's triangles, and to those what its vertices have.

@@ -9,9 +9,9 @@ mod read;
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
-pub use compile::{Body, First, Scene, compile};
+pub use compile::{Body, First, Scene, compile, compile_as};
 pub use description::*;
-pub use plan::{Plan, ShadowStart};
+pub use plan::{Plan, ShadowStart, Structure};
 pub use read::*;
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.

@@ -20,11 +20,25 @@ pub enum ShadowStart {
 /// here less than 1/1000 of the size. Likewise from the eye, in distances from there to what it looks at.
 const FARTHEST: f32 = 1024.0;
 
+/// How rays find what they may meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Structure {
+    /// Every batch looks at all there is.
+    None,
+    /// By a tree of boxes ([`crate::bvh`]); planes apart.
+    Tree,
+}
+
+/// The number of primitives with bounds from which on a tree is faster.
+const TREE_FROM: usize = 48;
+
 /// What the tracer will do for a scene, each with its reason; what is absent costs nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The numbers of primitives by kind, in the order of their ids.
     pub primitives: [usize; 9],
+    /// How rays find what they may meet.
+    pub structure: Structure,
     /// Whether there is more than planes, spheres and triangles that are seen from both sides.
     pub rare: bool,
     /// Whether any triangle has vertex normals.
@@ -69,8 +83,10 @@ impl Plan {
             || description.meshes.iter().any(|m| m.sides != Sides::Both);
         let mirrors = count(&|m| m.reflectance > 0.0);
         let glasses = count(&|m| m.transmission > 0.0);
+        let bounded: usize = primitives[1..].iter().sum();
         Self {
             primitives,
+            structure: if bounded < TREE_FROM { Structure::None } else { Structure::Tree },
             rare: one_sided || primitives[3..].iter().any(|n| *n > 0),
             rich: one_sided
                 || primitives[3..].iter().any(|n| *n > 0)
@@ -173,10 +189,17 @@ impl fmt::Display for Plan {
         for ((kind, method), count) in methods.into_iter().zip(self.primitives).filter(|(_, count)| *count > 0) {
             writeln!(f, "{kind:<11} {count}: {method}")?;
         }
-        writeln!(
-            f,
-            "structure   none: every batch of rays tests all that its origin ball and direction cone may meet"
-        )?;
+        match self.structure {
+            Structure::None => writeln!(
+                f,
+                "structure   none: every batch of rays tests all that its origin ball and direction cone may meet; a tree \
+                 pays from {TREE_FROM} primitives on"
+            )?,
+            Structure::Tree => writeln!(
+                f,
+                "structure   tree: groups of rays that run together descend behind a beam around them, others one by one"
+            )?,
+        }
         match (self.waves, self.mirrors, self.glasses) {
             (_, 0, 0) => writeln!(f, "waves       1: nothing reflects")?,
             (waves, n, 0) => {

@@ -1,6 +1,7 @@
 //! The primitives that a batch of rays may meet, gathered into records that lie one after another.
 
 use super::bounds::Bounds;
+use super::tree::State;
 use crate::geometry::{
     Balls, Bounded, Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles,
 };
@@ -86,6 +87,7 @@ impl<F: Form> Default for Lists<F> {
 pub struct Candidates {
     shared: Lists<Shared>,
     apart: Lists<Apart>,
+    tree: Option<Box<State>>,
 }
 
 /// What it holds matters only while a batch is traced, so that a copy starts out empty.
@@ -110,6 +112,12 @@ pub enum View<'a> {
 }
 
 impl Candidates {
+    /// What the way through a tree needs instead.
+    #[inline(always)]
+    pub(super) fn tree(&mut self) -> &mut State {
+        self.tree.get_or_insert_default()
+    }
+
     /// Gathers what the batch with these bounds may meet.
     #[inline(always)]
     pub fn gather<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> View<'_> {

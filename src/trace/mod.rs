@@ -4,10 +4,12 @@
 //! is computed once, then the packets go through the rest one by one.
 
 mod bounds;
+mod boxes;
 mod candidates;
 mod packets;
 mod query;
 mod single;
+mod tree;
 
 pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use candidates::Candidates;
@@ -57,9 +59,12 @@ pub(crate) fn nearest_hits<L: Lanes, const RARE: bool>(
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
+    if let Some(bvh) = &scene.bvh {
+        return tree::nearest::<L, RARE>(scene, bvh, rays, bounds, scratch.tree(), take);
+    }
     match scratch.gather::<L>(scene, bounds) {
-        View::Shared(candidates) => packets::nearest::<_, L, RARE>(candidates, rays, take),
-        View::Apart(candidates) => packets::nearest::<_, L, RARE>(candidates, rays, take),
+        View::Shared(candidates) => packets::nearest::<_, L, RARE>(scene, candidates, rays, take),
+        View::Apart(candidates) => packets::nearest::<_, L, RARE>(scene, candidates, rays, take),
     }
 }
 
@@ -72,8 +77,11 @@ pub(crate) fn any_hits<L: Lanes, const RARE: bool>(
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
+    if let Some(bvh) = &scene.bvh {
+        return tree::any::<L, RARE>(scene, bvh, rays, bounds, scratch.tree(), take);
+    }
     match scratch.gather::<L>(scene, bounds) {
-        View::Shared(candidates) => packets::any::<_, L, RARE>(candidates, rays, take),
-        View::Apart(candidates) => packets::any::<_, L, RARE>(candidates, rays, take),
+        View::Shared(candidates) => packets::any::<_, L, RARE>(scene, candidates, rays, take),
+        View::Apart(candidates) => packets::any::<_, L, RARE>(scene, candidates, rays, take),
     }
 }

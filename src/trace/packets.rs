@@ -1,16 +1,18 @@
 //! Packets against candidates, one by one.
 
+use super::boxes::Boxes;
 use super::candidates::{Form, List, Lists};
 use super::query::{Any, Nearest, Query};
 use crate::geometry::Primitives;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
+use crate::scene::Scene;
 
 /// A packet's rays, as the primitives' tests take them.
 #[derive(Clone, Copy)]
-struct Packet<L> {
-    origin: Vec3<L>,
-    direction: Vec3<L>,
-    t_min: L,
+pub(super) struct Packet<L> {
+    pub origin: Vec3<L>,
+    pub direction: Vec3<L>,
+    pub t_min: L,
 }
 
 impl<F: Form> Lists<F> {
@@ -18,7 +20,7 @@ impl<F: Form> Lists<F> {
     ///
     /// `RARE` says that there is more than planes, spheres and triangles that are seen from both sides.
     #[inline(always)]
-    fn visit<L: Lanes, Q: Query<L>, const RARE: bool>(&self, packet: Packet<L>, query: &mut Q) {
+    fn visit<L: Lanes, Q: Query<L>, const RARE: bool>(&self, scene: &Scene, packet: Packet<L>, query: &mut Q) {
         each::<F, _, L, Q, RARE>(&self.planes, &packet, query);
         if query.done() {
             return;
@@ -29,33 +31,34 @@ impl<F: Form> Lists<F> {
         }
         each::<F, _, L, Q, RARE>(&self.triangles, &packet, query);
         if RARE && !query.done() {
-            self.visit_rare(&packet, query);
+            self.visit_rare(scene, &packet, query);
         }
     }
 
     #[inline(never)]
-    fn visit_rare<L: Lanes, Q: Query<L>>(&self, packet: &Packet<L>, query: &mut Q) {
-        each::<F, _, L, Q, true>(&self.quads, packet, query);
+    fn visit_rare<L: Lanes, Q: Query<L>>(&self, scene: &Scene, packet: &Packet<L>, query: &mut Q) {
+        let boxes = Boxes::new(scene, packet);
+        each_boxed::<F, _, L, Q>(&self.quads, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.cuboids, packet, query);
+        each_boxed::<F, _, L, Q>(&self.cuboids, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.cylinders, packet, query);
+        each_boxed::<F, _, L, Q>(&self.cylinders, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.cones, packet, query);
+        each_boxed::<F, _, L, Q>(&self.cones, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.tori, packet, query);
+        each_boxed::<F, _, L, Q>(&self.tori, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.fractals, packet, query);
+        each_boxed::<F, _, L, Q>(&self.fractals, &boxes, packet, query);
     }
 }
 
@@ -81,9 +84,35 @@ fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
     }
 }
 
+/// The same for a kind whose hits count only within their boxes; see [`super::boxes`].
+#[inline(always)]
+fn each_boxed<F: Form, K: Primitives, L: Lanes, Q: Query<L>>(
+    records: &List<F, K>,
+    boxes: &Boxes<L>,
+    packet: &Packet<L>,
+    query: &mut Q,
+) {
+    if records.is_empty() {
+        return;
+    }
+    let aim = K::aim(packet.direction);
+    for (record, id) in records {
+        let Some(within) = boxes.meet(*id, packet.t_min, query.t_max()) else { continue };
+        let seen = F::seen::<K, L>(record, packet.origin);
+        if let Some((t, inside)) = K::nearest::<L, true>(&seen, &aim, packet.t_min, query.t_max()) {
+            let (t, inside) = within.keep(t, inside);
+            query.hit(t, inside, *id);
+            if query.done() {
+                return;
+            }
+        }
+    }
+}
+
 /// Gives `take` the nearest hits of every packet with an active ray: its first ray, the active lanes and the answer.
 #[inline(always)]
 pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
+    scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
@@ -96,7 +125,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
         }
         // Nothing lies before −∞, so inactive lanes take no hit.
         let mut query = Nearest::new(t_max.select(active, L::splat(f32::NEG_INFINITY)));
-        candidates.visit::<L, _, RARE>(packet(rays, at), &mut query);
+        candidates.visit::<L, _, RARE>(scene, packet(rays, at), &mut query);
         take(at, active, &query);
     }
 }
@@ -105,6 +134,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
 /// ones (inactive lanes may be either).
 #[inline(always)]
 pub fn any<F: Form, L: Lanes, const RARE: bool>(
+    scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, L::Mask),
@@ -116,7 +146,7 @@ pub fn any<F: Form, L: Lanes, const RARE: bool>(
             continue;
         }
         let mut query = Any { settled: !active, t_max };
-        candidates.visit::<L, _, RARE>(packet(rays, at), &mut query);
+        candidates.visit::<L, _, RARE>(scene, packet(rays, at), &mut query);
         take(at, active, query.settled);
     }
 }

@@ -1,4 +1,5 @@
-//! Every width, both queries, all batch lengths: the same bits as one ray after another against every primitive.
+//! Every width, both queries, all batch lengths, with a tree and without: the same bits as one ray after another against
+//! every primitive.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -8,11 +9,11 @@ mod rays;
 mod scenes;
 
 use raypacket::math::{BATCH, Lanes};
-use raypacket::scene::Scene;
+use raypacket::scene::{Description, Scene, Structure, compile_as};
 use raypacket::trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
-use common::{Pcg, compiled};
+use common::Pcg;
 use oracle::{Answer, Ray};
 use scenes::Place;
 
@@ -25,7 +26,8 @@ const OLD_ID: u32 = 0xdead_beef;
 
 /// A batch with its answers.
 struct Case<'a> {
-    scene: &'a Scene,
+    /// The scene without a tree, and with one.
+    scenes: &'a [Scene; 2],
     rays: RayBatch,
     expected: Vec<Answer>,
     /// Says how to come back here.
@@ -33,9 +35,9 @@ struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    fn new(scene: &'a Scene, rays: RayBatch, name: String) -> Self {
-        let expected = (0..rays.len).map(|i| Answer::new(scene, &Ray::of(&rays, i))).collect();
-        Self { scene, rays, expected, name }
+    fn new(scenes: &'a [Scene; 2], rays: RayBatch, name: String) -> Self {
+        let expected = (0..rays.len).map(|i| Answer::new(&scenes[0], &Ray::of(&rays, i))).collect();
+        Self { scenes, rays, expected, name }
     }
 
     /// Both queries on the whole batch, and on every ray by itself.
@@ -51,8 +53,21 @@ impl<'a> Case<'a> {
 
     /// `expected` ends with the last ray; what comes after it has to be left as it was.
     fn check_batch<L: Lanes>(&self, rays: &RayBatch, expected: &[Answer], what: &str, scratch: &mut Candidates) {
+        let [without, with] = self.scenes;
+        self.check_in::<L>(without, rays, expected, what, scratch);
+        self.check_in::<L>(with, rays, expected, &format!("{what}, by the tree"), scratch);
+    }
+
+    fn check_in<L: Lanes>(
+        &self,
+        scene: &Scene,
+        rays: &RayBatch,
+        expected: &[Answer],
+        what: &str,
+        scratch: &mut Candidates,
+    ) {
         let mut hits = HitBatch { t: [OLD_T; BATCH], primitive: [OLD_ID; BATCH] };
-        intersect::<L>(self.scene, rays, &mut hits, scratch);
+        intersect::<L>(scene, rays, &mut hits, scratch);
         let answers = || (0..BATCH).map(|i| expected.get(i).copied().unwrap_or(Answer::Untouched)).enumerate();
         for (i, answer) in answers() {
             let found = (hits.t[i], hits.primitive[i]);
@@ -69,7 +84,7 @@ impl<'a> Case<'a> {
             for at in (0..BATCH).step_by(32) {
                 blocked.set(at, u32::MAX, old);
             }
-            occluded::<L>(self.scene, rays, &mut blocked, scratch);
+            occluded::<L>(scene, rays, &mut blocked, scratch);
             for (i, answer) in answers() {
                 // A ray is blocked exactly when `intersect` finds a hit.
                 let hit = u32::from(hits.primitive[i] != NONE);
@@ -79,6 +94,11 @@ impl<'a> Case<'a> {
             }
         }
     }
+}
+
+/// Without a tree and with one.
+fn both(description: &Description) -> [Scene; 2] {
+    [Structure::None, Structure::Tree].map(|s| compile_as(description, Some(s)).expect("a sound scene"))
 }
 
 fn lengths() -> impl Iterator<Item = usize> {
@@ -92,11 +112,11 @@ fn run(kind: scenes::Kind) {
     for seed in 0..ROUNDS {
         let mut rng = Pcg::new(seed);
         let place = Place::random(&mut rng);
-        let scene = compiled(&scenes::scene(kind, place, &mut rng));
+        let scenes = both(&scenes::scene(kind, place, &mut rng));
         for rays in rays::Kind::all() {
             for len in lengths() {
                 let name = format!("{kind:?}, seed {seed}, {rays:?}, {len} rays");
-                let case = Case::new(&scene, rays::batch(rays, len, &scene, place, &mut rng), name);
+                let case = Case::new(&scenes, rays::batch(rays, len, &scenes[0], place, &mut rng), name);
                 case.check::<f32>(&mut scratch);
                 case.check::<f32x4>(&mut scratch);
                 case.check::<f32x8>(&mut scratch);
@@ -167,12 +187,12 @@ fn culling_beside_outlines() {
     {
         let mut rng = Pcg::new(1000 + seed);
         let place = Place::random(&mut rng);
-        let scene = compiled(&scenes::scene(kind, place, &mut rng));
+        let scenes = both(&scenes::scene(kind, place, &mut rng));
         for origins in [rays::Origins::Flagged, rays::Origins::Near] {
             for len in [2, 3, 7, 16] {
                 let rays = rays::Kind { origins, directions, broken: false };
                 let name = format!("{kind:?}, seed {seed}, {rays:?}, {len} rays");
-                let case = Case::new(&scene, rays::batch(rays, len, &scene, place, &mut rng), name);
+                let case = Case::new(&scenes, rays::batch(rays, len, &scenes[0], place, &mut rng), name);
                 case.check_batch::<f32x8>(&case.rays, &case.expected, "batch", &mut scratch);
             }
         }
@@ -184,12 +204,12 @@ fn culling_beside_outlines() {
 fn origins_apart_by_next_to_nothing() {
     let mut description = common::empty();
     description.planes.push(common::plane(glam::Vec3::Y, 0.0));
-    let scene = compiled(&description);
+    let scenes = both(&description);
     let mut rays = RayBatch::default();
     for height in [0.0, 1e-25, -1e-25, 3e-25] {
         rays.push(glam::Vec3::Y * height, glam::Vec3::NEG_Y, 0.0, f32::INFINITY);
     }
-    let case = Case::new(&scene, rays, "origins 1e-25 apart".into());
+    let case = Case::new(&scenes, rays, "origins 1e-25 apart".into());
     case.check::<f32>(&mut Candidates::default());
     case.check::<f32x4>(&mut Candidates::default());
     case.check::<f32x8>(&mut Candidates::default());

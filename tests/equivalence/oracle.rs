@@ -1,6 +1,7 @@
 //! The answer for one ray: every primitive in turn, by the library's scalar tests, nothing left out.
 
 use glam::Vec3;
+use raypacket::bvh::Aabb;
 use raypacket::geometry::Primitives;
 use raypacket::math::RayBatch;
 use raypacket::scene::Scene;
@@ -54,16 +55,17 @@ impl Answer {
 
 /// Distance and id of an active ray's nearest hit.
 fn nearest(scene: &Scene, ray: &Ray) -> (f32, u32) {
+    let boxes = |first: u32| &scene.boxes[(first - scene.first.quads) as usize..];
     let mut best = Best { ray, t: ray.t_max, id: NONE };
-    best.among(&scene.planes, 0);
-    best.among(&scene.spheres, scene.first.spheres);
-    best.among(&scene.triangles, scene.first.triangles);
-    best.among(&scene.quads, scene.first.quads);
-    best.among(&scene.cuboids, scene.first.cuboids);
-    best.among(&scene.cylinders, scene.first.cylinders);
-    best.among(&scene.cones, scene.first.cones);
-    best.among(&scene.tori, scene.first.tori);
-    best.among(&scene.fractals, scene.first.fractals);
+    best.among(&scene.planes, 0, &[]);
+    best.among(&scene.spheres, scene.first.spheres, &[]);
+    best.among(&scene.triangles, scene.first.triangles, &[]);
+    best.among(&scene.quads, scene.first.quads, boxes(scene.first.quads));
+    best.among(&scene.cuboids, scene.first.cuboids, boxes(scene.first.cuboids));
+    best.among(&scene.cylinders, scene.first.cylinders, boxes(scene.first.cylinders));
+    best.among(&scene.cones, scene.first.cones, boxes(scene.first.cones));
+    best.among(&scene.tori, scene.first.tori, boxes(scene.first.tori));
+    best.among(&scene.fractals, scene.first.fractals, boxes(scene.first.fractals));
     if best.id == NONE { (f32::INFINITY, NONE) } else { (best.t, best.id) }
 }
 
@@ -74,16 +76,36 @@ struct Best<'a> {
 }
 
 impl Best<'_> {
-    /// Tries all primitives of a kind.
-    fn among<K: Primitives>(&mut self, kind: &K, first: u32) {
+    /// Tries all primitives of a kind; of what has `boxes` only hits in there count.
+    fn among<K: Primitives>(&mut self, kind: &K, first: u32, boxes: &[Aabb]) {
         let (origin, aim) = (self.ray.origin.into(), K::aim::<f32>(self.ray.direction.into()));
         for i in 0..kind.len() {
+            let within = match boxes.get(i) {
+                Some(bounds) => self.within(bounds),
+                None => Some((f32::NEG_INFINITY, f32::INFINITY)),
+            };
+            let Some((enter, exit)) = within else { continue };
             let seen = K::seen(&kind.record(i), origin);
             // Only a strictly nearer hit replaces one that is there, so the lowest id keeps a tie.
             let hit = K::nearest::<f32, true>(&seen, &aim, self.ray.t_min, self.t);
             if let Some((t, true)) = hit.filter(|(t, _)| *t < self.t) {
-                (self.t, self.id) = (t, first + i as u32);
+                (self.t, self.id) = (t.max(enter).min(exit), first + i as u32);
             }
         }
+    }
+
+    /// Where the ray is in a box that is wider by 32 ε of its farthest corner's distance.
+    fn within(&self, bounds: &Aabb) -> Option<(f32, f32)> {
+        let (low, high) = (bounds.min - self.ray.origin, bounds.max - self.ray.origin);
+        let pad = low.abs().max(high.abs()).max_element() * 16.0 * f32::EPSILON;
+        let (mut enter, mut exit) = (f32::NEG_INFINITY, f32::INFINITY);
+        for axis in 0..3 {
+            let (low, high, d) = (low[axis] - pad, high[axis] + pad, self.ray.direction[axis]);
+            let (near, far) = if d < 0.0 { (-high, -low) } else { (low, high) };
+            // `max` and `min` pass over NaN, of a ray in a face's plane.
+            enter = enter.max(near * (1.0 / d.abs()));
+            exit = exit.min(far * (1.0 / d.abs()));
+        }
+        (enter <= exit && exit > self.ray.t_min && enter < self.t).then_some((enter, exit))
     }
 }

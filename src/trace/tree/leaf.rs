@@ -1,0 +1,176 @@
+//! The primitives of a block against the packets of a group.
+
+use crate::bvh::{SphereBlock, TriangleBlock};
+use crate::geometry::triangle::{covers, distance, plane};
+use crate::geometry::{Primitives, Sides, SphereRecord, Spheres};
+use crate::math::{LaneMask, Lanes, NONE, Vec3};
+use crate::scene::with_primitive;
+use std::ops::Range;
+use wide::f32x8;
+
+use super::super::boxes::Boxes;
+use super::super::packets::Packet;
+use super::Walk;
+use super::beam::Beam;
+
+impl Walk<'_> {
+    /// The triangles of a block whose boxes the beam meets, one by one; whether any hit was taken.
+    #[inline(always)]
+    pub fn triangles<L: Lanes, const ANY: bool, const RARE: bool>(
+        &mut self,
+        block: &TriangleBlock,
+        beam: &Beam,
+        limit: f32,
+        range: Range<usize>,
+    ) -> bool {
+        let [a, b, c] = &block.corners;
+        let least =
+            |axis: usize| Lanes::min(f32x8::from(a[axis]), Lanes::min(f32x8::from(b[axis]), f32x8::from(c[axis])));
+        let most =
+            |axis: usize| Lanes::max(f32x8::from(a[axis]), Lanes::max(f32x8::from(b[axis]), f32x8::from(c[axis])));
+        let [min, max] = [[least(0), least(1), least(2)], [most(0), most(1), most(2)]].map(|v| v.map(f32x8::to_array));
+        let (_, mut met) = beam.meets(&min, &max, f32x8::splat(limit));
+        let mut taken = false;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize & 7;
+            met &= met - 1;
+            let id = block.id[lane];
+            if id == NONE {
+                break;
+            }
+            let corners = block.corners.map(|c| glam::Vec3::new(c[0][lane], c[1][lane], c[2][lane]));
+            for at in range.clone().step_by(L::WIDTH) {
+                let origin = self.rays.origins::<L>(at);
+                let aim = self.state.aim::<L>(self.rays, at);
+                let seen = corners.map(|c| Vec3::splat(c) - origin);
+                let Some(inside) = covers(&seen, &aim) else { continue };
+                taken |= self.triangle::<L, ANY, RARE>(at, corners, &seen, inside, id);
+            }
+        }
+        taken
+    }
+
+    /// Takes the hits of a triangle that packet `at` passes through where `inside` is true.
+    #[inline(always)]
+    pub fn triangle<L: Lanes, const ANY: bool, const RARE: bool>(
+        &mut self,
+        at: usize,
+        corners: [glam::Vec3; 3],
+        seen: &[Vec3<L>; 3],
+        inside: L::Mask,
+        id: u32,
+    ) -> bool {
+        let direction = Vec3::load(&self.rays.direction, at);
+        let (n, steep) = plane(corners.map(Vec3::<f32>::from));
+        let n = Vec3::splat(n.into());
+        let (t, mut inside) = distance(seen, (n, seen[0].dot(n), steep), direction, inside);
+        if RARE {
+            inside = inside
+                & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], n.dot(direction));
+        }
+        let inside = inside & t.gt(L::load(&self.rays.t_min[at..]));
+        inside.any() && self.state.take::<L, ANY>(at, t, inside, id)
+    }
+
+    /// The same for spheres.
+    #[inline(always)]
+    pub fn spheres<L: Lanes, const ANY: bool, const RARE: bool>(
+        &mut self,
+        block: &SphereBlock,
+        beam: &Beam,
+        limit: f32,
+        range: Range<usize>,
+    ) -> bool {
+        let radius = f32x8::from(block.radius);
+        let [x, y, z] = block.center.map(f32x8::from);
+        let [min, max] = [[x - radius, y - radius, z - radius], [x + radius, y + radius, z + radius]]
+            .map(|v| v.map(f32x8::to_array));
+        let (_, mut met) = beam.meets(&min, &max, f32x8::splat(limit));
+        let mut taken = false;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize & 7;
+            met &= met - 1;
+            let id = block.id[lane];
+            if id == NONE {
+                break;
+            }
+            let sides =
+                if RARE { self.scene.spheres.sides[(id - self.scene.first.spheres) as usize] } else { Sides::Both };
+            let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
+            let record = SphereRecord { center, radius: block.radius[lane], sides };
+            taken |= self.packets::<Spheres, L, ANY, RARE>(&record, range.clone(), id);
+        }
+        taken
+    }
+
+    /// Primitive `id` against the packets of a range.
+    #[inline(always)]
+    pub fn packets<K: Primitives, L: Lanes, const ANY: bool, const RARE: bool>(
+        &mut self,
+        record: &K::Record,
+        range: Range<usize>,
+        id: u32,
+    ) -> bool {
+        let mut taken = false;
+        for at in range.step_by(L::WIDTH) {
+            let seen = K::seen::<L>(record, self.rays.origins(at));
+            let aim = K::aim(Vec3::load(&self.rays.direction, at));
+            let t_min = L::load(&self.rays.t_min[at..]);
+            // As far as the ray goes: what was found may be as near with a higher id.
+            if let Some((t, inside)) = K::nearest::<L, RARE>(&seen, &aim, t_min, L::splat(f32::INFINITY)) {
+                taken |= self.state.take::<L, ANY>(at, t, inside, id);
+            }
+        }
+        taken
+    }
+
+    /// All other kinds.
+    #[inline(never)]
+    pub fn others<L: Lanes, const ANY: bool>(&mut self, block: usize, range: Range<usize>) -> bool {
+        let mut taken = false;
+        // No child counts as one without a block; a beam with infinite numbers may meet it.
+        let Some(block) = self.bvh.others.get(block) else { return false };
+        for id in block.id.into_iter().take_while(|&id| id != NONE) {
+            taken |= with_primitive!(self.scene, id, |kind, i| self.other::<_, L, ANY>(kind, i, range.clone(), id));
+        }
+        taken
+    }
+
+    #[inline(always)]
+    fn other<K: Primitives, L: Lanes, const ANY: bool>(
+        &mut self,
+        kind: &K,
+        i: usize,
+        range: Range<usize>,
+        id: u32,
+    ) -> bool {
+        let record = kind.record(i);
+        let mut taken = false;
+        for at in range.step_by(L::WIDTH) {
+            let packet = Packet {
+                origin: self.rays.origins(at),
+                direction: Vec3::load(&self.rays.direction, at),
+                t_min: L::load(&self.rays.t_min[at..]),
+            };
+            let t_max = L::load(&self.rays.t_max[at..]);
+            let Some(within) = Boxes::new(self.scene, &packet).meet(id, packet.t_min, t_max) else { continue };
+            let seen = K::seen::<L>(&record, packet.origin);
+            let aim = K::aim(packet.direction);
+            if let Some((t, inside)) = K::nearest::<L, true>(&seen, &aim, packet.t_min, t_max) {
+                let (t, inside) = within.keep(t, inside);
+                taken |= self.state.take::<L, ANY>(at, t, inside, id);
+            }
+        }
+        taken
+    }
+}
+
+/// Where a triangle is there for rays that run `along` its normal.
+#[inline(always)]
+fn there<L: Lanes>(sides: Sides, along: L) -> L::Mask {
+    match sides {
+        Sides::Both => L::zero().le(L::zero()),
+        Sides::Front => along.lt(L::zero()),
+        Sides::Back => along.gt(L::zero()),
+    }
+}

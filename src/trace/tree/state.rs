@@ -1,0 +1,103 @@
+//! What is known of a batch's rays on the way.
+
+use crate::bvh::MOST_DEPTH;
+use crate::geometry::triangle::Aim;
+use crate::math::{BATCH, LaneMask, Lanes, NONE, RayBatch, Vec3};
+
+use super::stack::Stack;
+
+/// Per ray: the end of its interval, the hit that set it, and what the triangles' test needs of its direction. Kept
+/// from batch to batch.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct State {
+    /// The nearest distance so far, the ray's `t_max` before there is any; −∞ for a blocked ray when any hit will do; NaN
+    /// for an inactive one and one with NaN or infinite components, which hits nothing.
+    pub t: [f32; BATCH],
+    /// The primitive there, or [`NONE`].
+    pub id: [u32; BATCH],
+    /// The axes across the directions, for triangles.
+    pub across: [[[f32; BATCH]; 3]; 2],
+    pub stack: Stack,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self { t: [0.0; BATCH], id: [NONE; BATCH], across: [[[0.0; BATCH]; 3]; 2], stack: Stack::default() }
+    }
+}
+
+impl State {
+    /// For a new batch; `triangles` says whether there are any.
+    #[inline(always)]
+    pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
+        const { assert!(MOST_DEPTH <= 64) };
+        for at in (0..rays.len).step_by(L::WIDTH) {
+            let t_max = L::load(&rays.t_max[at..]);
+            let active =
+                t_max.ge(L::zero()) & finite(rays.origins::<L>(at)) & finite(Vec3::<L>::load(&rays.direction, at));
+            t_max.select(active, L::splat(f32::NAN)).store(&mut self.t[at..]);
+            L::splat_id(NONE).store_ids(&mut self.id[at..]);
+            if triangles {
+                let aim = Aim::new(Vec3::<L>::load(&rays.direction, at));
+                let [x, y] = aim.across();
+                x.store(&mut self.across[0], at);
+                y.store(&mut self.across[1], at);
+            }
+        }
+    }
+
+    /// The directions of packet `at` for the triangles' test.
+    #[inline(always)]
+    pub fn aim<L: Lanes>(&self, rays: &RayBatch, at: usize) -> Aim<L> {
+        let across = [Vec3::load(&self.across[0], at), Vec3::load(&self.across[1], at)];
+        Aim::of(Vec3::load(&rays.direction, at), across)
+    }
+
+    /// Takes hits of one primitive at `t` in packet `at`, where `inside` is true: whether any is nearer than what there
+    /// was, or as near with a lower id.
+    #[inline(always)]
+    pub fn take<L: Lanes, const ANY: bool>(&mut self, at: usize, t: L, inside: L::Mask, id: u32) -> bool {
+        let old = L::load(&self.t[at..]);
+        let mut closer = inside & t.lt(old);
+        if ANY {
+            L::splat(f32::NEG_INFINITY).select(closer, old).store(&mut self.t[at..]);
+            return closer.any();
+        }
+        let tie = inside & t.eq(old);
+        if tie.any() {
+            closer = closer | self.lower::<L>(at, tie, id);
+        }
+        if closer.any() {
+            t.select(closer, old).store(&mut self.t[at..]);
+            L::splat_id(id).select(closer, L::load_ids(&self.id[at..])).store_ids(&mut self.id[at..]);
+        }
+        closer.any()
+    }
+
+    /// Where there is a primitive already whose id is higher.
+    #[inline(never)]
+    fn lower<L: Lanes>(&self, at: usize, tie: L::Mask, id: u32) -> L::Mask {
+        let lower = self.id[at..at + L::WIDTH].iter().map(|&old| old != NONE && id < old);
+        let bits = lower.enumerate().fold(0, |bits, (lane, lower)| bits | (u32::from(lower) << lane));
+        tie & L::Mask::from_bits(bits)
+    }
+
+    /// The furthest that any of the rays still looks.
+    #[inline(always)]
+    pub fn furthest<L: Lanes>(&self, range: std::ops::Range<usize>) -> f32 {
+        let mut most = L::splat(f32::NEG_INFINITY);
+        for at in range.step_by(L::WIDTH) {
+            most = L::load(&self.t[at..]).max(most);
+        }
+        most.greatest()
+    }
+}
+
+/// Where all components are finite.
+#[inline(always)]
+fn finite<L: Lanes>(v: Vec3<L>) -> L::Mask {
+    // ∞ − ∞ is NaN.
+    let Vec3 { x, y, z } = v - v;
+    (x + y + z).eq(L::zero())
+}
