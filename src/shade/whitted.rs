@@ -112,8 +112,14 @@ fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, obser
     }
     observer.primary(&primary.rays);
     let mut stage = Stage { scene, radiance, queue, surfaces, lighting, candidates };
-    counts.shadow += stage.shade::<L, RICH>(primary, 1, observer);
-    while let Some((wave, depth, kind)) = stage.queue.take() {
+    let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
+    // All waves go through one call, which is compiled in place.
+    loop {
+        counts.shadow += stage.shade::<L, RICH>(queued.as_deref().unwrap_or(primary), depth, observer);
+        if let Some(wave) = queued.take() {
+            stage.queue.give_back(wave);
+        }
+        let Some((wave, at, kind)) = stage.queue.take() else { return counts };
         match kind {
             Kind::Reflection => {
                 counts.reflection += wave.rays.len as u64;
@@ -124,10 +130,8 @@ fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, obser
                 observer.refraction(&wave.rays);
             }
         }
-        counts.shadow += stage.shade::<L, RICH>(&wave, depth, observer);
-        stage.queue.give_back(wave);
+        (queued, depth) = (Some(wave), at);
     }
-    counts
 }
 
 /// What a tile's waves go through.
