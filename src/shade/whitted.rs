@@ -168,21 +168,28 @@ impl Stage<'_> {
         let Self { scene, radiance, surfaces, candidates, .. } = self;
         let mut any = false;
         surfaces.start(wave.rays.len);
-        nearest_hits::<L, RICH>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
-            if hit.found.any() {
-                any = true;
-                surfaces.find::<L, RICH>(scene, wave, at, hit);
-            }
-            let missed = active & !hit.found;
-            if missed.any() {
-                let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
-                let mut seen = sky * L::load(&wave.weight[at..]);
-                if RICH && scene.plan.absorbs {
-                    seen = seen.times(endless::<L>(scene, wave, at));
+        nearest_hits::<L, RICH>(
+            scene,
+            &wave.rays,
+            &bounds,
+            candidates,
+            #[inline(always)]
+            |at, active, hit| {
+                if hit.found.any() {
+                    any = true;
+                    surfaces.find::<L, RICH>(scene, wave, at, hit);
                 }
-                deposit::<L, RICH>(wave, at, seen, missed, radiance, depth == 1);
-            }
-        });
+                let missed = active & !hit.found;
+                if missed.any() {
+                    let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
+                    let mut seen = sky * L::load(&wave.weight[at..]);
+                    if RICH && scene.plan.absorbs {
+                        seen = seen.times(endless::<L>(scene, wave, at));
+                    }
+                    deposit::<L, RICH>(wave, at, seen, missed, radiance, depth == 1);
+                }
+            },
+        );
         any
     }
 

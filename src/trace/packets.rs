@@ -1,8 +1,8 @@
 //! Packets against candidates, one by one.
 
-use super::candidates::{Form, List, Lists};
+use super::candidates::{Form, Lists};
 use super::query::{Any, Nearest, Query};
-use crate::geometry::Primitives;
+use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 
 /// A packet's rays, as the primitives' tests take them.
@@ -13,56 +13,71 @@ struct Packet<L> {
     t_min: L,
 }
 
-impl<F: Form> Lists<F> {
+/// The candidates; the common kinds as slices, so that where they lie is known outside the loop over the packets.
+struct Found<'a, F: Form> {
+    planes: &'a [(F::Of<Planes>, u32)],
+    spheres: &'a [(F::Of<Spheres>, u32)],
+    triangles: &'a [(F::Of<Triangles>, u32)],
+    lists: &'a Lists<F>,
+}
+
+impl<'a, F: Form> Found<'a, F> {
+    #[inline(always)]
+    fn of(lists: &'a Lists<F>) -> Self {
+        Self { planes: &lists.planes, spheres: &lists.spheres, triangles: &lists.triangles, lists }
+    }
+
     /// Shows every candidate to the query, in rising order of ids, until it is done.
     ///
     /// `RARE` says that there is more than planes, spheres and triangles that are seen from both sides.
     #[inline(always)]
     fn visit<L: Lanes, Q: Query<L>, const RARE: bool>(&self, packet: Packet<L>, query: &mut Q) {
-        each::<F, _, L, Q, RARE>(&self.planes, &packet, query);
+        each::<F, Planes, L, Q, RARE>(self.planes, &packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, RARE>(&self.spheres, &packet, query);
+        each::<F, Spheres, L, Q, RARE>(self.spheres, &packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, RARE>(&self.triangles, &packet, query);
+        each::<F, Triangles, L, Q, RARE>(self.triangles, &packet, query);
         if RARE && !query.done() {
-            self.visit_rare(&packet, query);
+            self.lists.visit_rare(&packet, query);
         }
     }
+}
 
+impl<F: Form> Lists<F> {
     #[inline(never)]
     fn visit_rare<L: Lanes, Q: Query<L>>(&self, packet: &Packet<L>, query: &mut Q) {
-        each::<F, _, L, Q, true>(&self.quads, packet, query);
+        each::<F, Quads, L, Q, true>(&self.quads, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.cuboids, packet, query);
+        each::<F, Cuboids, L, Q, true>(&self.cuboids, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.cylinders, packet, query);
+        each::<F, Cylinders, L, Q, true>(&self.cylinders, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.cones, packet, query);
+        each::<F, Cones, L, Q, true>(&self.cones, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.tori, packet, query);
+        each::<F, Tori, L, Q, true>(&self.tori, packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, true>(&self.fractals, packet, query);
+        each::<F, Fractals, L, Q, true>(&self.fractals, packet, query);
     }
 }
 
 /// Shows every primitive of one kind to the query, which is not done yet, until it is.
 #[inline(always)]
 fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
-    records: &List<F, K>,
+    records: &[(F::Of<K>, u32)],
     packet: &Packet<L>,
     query: &mut Q,
 ) {
@@ -88,6 +103,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
+    let candidates = Found::of(candidates);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
@@ -109,6 +125,7 @@ pub fn any<F: Form, L: Lanes, const RARE: bool>(
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
+    let candidates = Found::of(candidates);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
