@@ -88,27 +88,7 @@ pub struct First {
 
 /// Evaluates an expression for the primitive with an id, whatever its kind:
 /// `with_primitive!(scene, id, |kind, i| kind.material(i))`, where `kind` is [`Primitives`] and `i` counts within it.
-/// With `, else other` only for planes, spheres and triangles, and the other expression for the rest.
 macro_rules! with_primitive {
-    ($scene:expr, $id:expr, |$kind:ident, $i:ident| $body:expr, else $other:expr) => {{
-        let (scene, id): (&$crate::scene::Scene, u32) = ($scene, $id);
-        let first = &scene.first;
-        macro_rules! on {
-            ($field:ident, $from:expr) => {{
-                let ($kind, $i) = (&scene.$field, (id - $from) as usize);
-                $body
-            }};
-        }
-        if id >= first.quads {
-            $other
-        } else if id >= first.triangles {
-            on!(triangles, first.triangles)
-        } else if id >= first.spheres {
-            on!(spheres, first.spheres)
-        } else {
-            on!(planes, 0)
-        }
-    }};
     ($scene:expr, $id:expr, |$kind:ident, $i:ident| $body:expr) => {{
         let (scene, id): (&$crate::scene::Scene, u32) = ($scene, $id);
         let first = &scene.first;

@@ -168,28 +168,36 @@ impl Lighting {
     ) {
         let Self { rays, irradiance, highlight, arriving, cosine } = self;
         let power = Vec3::<L>::splat(light.power);
-        any_hits::<L, RICH>(scene, rays, bounds, scratch, |at, active, settled| {
-            let lit = active & !settled;
-            if !lit.any() {
-                return;
-            }
-            let e = if scene.settings.attenuation { L::load(&arriving[at..]) } else { L::splat(1.0) };
-            let diffuse = (e * L::load(&cosine[at..])).select(lit, L::zero());
-            power.mul_add(diffuse, Vec3::load(irradiance, at)).store(irradiance, at);
-            let shiny = lit & L::load(&surfaces.specular[at..]).gt(L::zero());
-            if surfaces.glossy && shiny.any() {
-                let mirrored =
-                    spawn::mirror(Vec3::<L>::load(&wave.rays.direction, at), Vec3::load(&surfaces.normal, at));
-                let away = Vec3::load(&rays.direction, at);
-                let off = if rays.common_origin { mirrored + away } else { mirrored - away };
-                // r·l of unit vectors, which is exact where it is close to 1 and never above it.
-                let towards = off.dot(off).mul_add(L::splat(-0.5), L::splat(1.0));
-                let shiny = shiny & towards.gt(L::zero());
-                if shiny.any() {
-                    let gloss = (e * powf(towards, L::load(&surfaces.shininess[at..]))).select(shiny, L::zero());
-                    power.mul_add(gloss, Vec3::load(highlight, at)).store(highlight, at);
+        // Compiled in place, or it would load what it captures for every packet.
+        any_hits::<L, RICH>(
+            scene,
+            rays,
+            bounds,
+            scratch,
+            #[inline(always)]
+            |at, active, settled| {
+                let lit = active & !settled;
+                if !lit.any() {
+                    return;
                 }
-            }
-        });
+                let e = if scene.settings.attenuation { L::load(&arriving[at..]) } else { L::splat(1.0) };
+                let diffuse = (e * L::load(&cosine[at..])).select(lit, L::zero());
+                power.mul_add(diffuse, Vec3::load(irradiance, at)).store(irradiance, at);
+                let shiny = lit & L::load(&surfaces.specular[at..]).gt(L::zero());
+                if surfaces.glossy && shiny.any() {
+                    let mirrored =
+                        spawn::mirror(Vec3::<L>::load(&wave.rays.direction, at), Vec3::load(&surfaces.normal, at));
+                    let away = Vec3::load(&rays.direction, at);
+                    let off = if rays.common_origin { mirrored + away } else { mirrored - away };
+                    // r·l of unit vectors, which is exact where it is close to 1 and never above it.
+                    let towards = off.dot(off).mul_add(L::splat(-0.5), L::splat(1.0));
+                    let shiny = shiny & towards.gt(L::zero());
+                    if shiny.any() {
+                        let gloss = (e * powf(towards, L::load(&surfaces.shininess[at..]))).select(shiny, L::zero());
+                        power.mul_add(gloss, Vec3::load(highlight, at)).store(highlight, at);
+                    }
+                }
+            },
+        );
     }
 }

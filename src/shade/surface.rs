@@ -6,7 +6,7 @@ use super::texture;
 use super::wave::Wave;
 use crate::geometry::{Primitives, Surface};
 use crate::math::{BATCH, LaneMask, Lanes, Vec3, exp2};
-use crate::scene::{Pigment, Scene, with_primitive};
+use crate::scene::{Material, Pigment, Scene, with_primitive};
 use crate::trace::Nearest;
 
 /// The surfaces that a wave's rays hit, column by column.
@@ -215,16 +215,7 @@ impl<L: Lanes> Gathered<L> {
 /// Primitive `id`'s surface and material at the points `p`.
 #[inline(always)]
 fn gather<L: Lanes, const RICH: bool>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
-    let (surface, material) = surface(scene, id, p);
-    let m = &scene.materials[material as usize];
-    let color = match m.pigment {
-        Pigment::Color(color) => Vec3::splat(color),
-        Pigment::Checker { colors, size } => {
-            let odd = odd_cell(scene, id, &surface, 1.0 / size);
-            Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
-        }
-        Pigment::Texture { texture, size } => textured(scene, id, &surface, texture, 1.0 / size),
-    };
+    let Painted { surface, material: m, color } = painted::<L, RICH>(scene, id, p);
     let smooth = if RICH && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
     Gathered {
         point: surface.point,
@@ -242,10 +233,70 @@ fn gather<L: Lanes, const RICH: bool>(scene: &Scene, id: u32, p: Vec3<L>) -> Gat
     }
 }
 
+/// A surface, what it is made of, and its colour.
+struct Painted<'a, L> {
+    surface: Surface<L>,
+    material: &'a Material,
+    color: Vec3<L>,
+}
+
+/// Primitive `id` near the points `p`; a plane, sphere or triangle unless the scene is `RICH`.
+#[inline(always)]
+fn painted<L: Lanes, const RICH: bool>(scene: &Scene, id: u32, p: Vec3<L>) -> Painted<'_, L> {
+    let first = &scene.first;
+    if RICH && id >= first.quads {
+        // Taken apart, so that nothing has to lie in memory for the others.
+        let Painted { surface, material, color } = rare_painted(scene, id, p);
+        Painted { surface, material, color }
+    } else if id >= first.triangles {
+        paint(scene, &scene.triangles, (id - first.triangles) as usize, p)
+    } else if id >= first.spheres {
+        paint(scene, &scene.spheres, (id - first.spheres) as usize, p)
+    } else {
+        paint(scene, &scene.planes, id as usize, p)
+    }
+}
+
+/// [`painted`] for any kind; apart, so as not to weigh on planes, spheres and triangles.
+#[inline(never)]
+fn rare_painted<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Painted<'_, L> {
+    with_primitive!(scene, id, |kind, i| paint(scene, kind, i, p))
+}
+
+/// Primitive `i` of a kind near the points `p`.
+#[inline(always)]
+fn paint<'a, K: Primitives, L: Lanes>(scene: &'a Scene, kind: &K, i: usize, p: Vec3<L>) -> Painted<'a, L> {
+    let surface = kind.surface(i, p);
+    let material = &scene.materials[kind.material(i) as usize];
+    let color = match material.pigment {
+        Pigment::Color(color) => Vec3::splat(color),
+        Pigment::Checker { colors, size } => {
+            let odd = odd_cell(kind.checker(i, &surface) * L::splat(1.0 / size));
+            Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
+        }
+        Pigment::Texture { texture, size } => textured(scene, kind, i, surface, texture, 1.0 / size),
+    };
+    Painted { surface, material, color }
+}
+
+/// Where the checkerboard shows its second colour, for places in cells; see [`Pigment::Checker`].
+#[inline(always)]
+fn odd_cell<L: Lanes>(q: Vec3<L>) -> L::Mask {
+    let half = (q.x.floor() + q.y.floor() + q.z.floor()) * L::splat(0.5);
+    !half.floor().eq(half)
+}
+
 /// The colour of a texture.
 #[inline(never)]
-fn textured<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, texture: usize, per_size: f32) -> Vec3<L> {
-    let [u, v] = with_primitive!(scene, id, |kind, i| kind.uv(i, surface));
+fn textured<K: Primitives, L: Lanes>(
+    scene: &Scene,
+    kind: &K,
+    i: usize,
+    surface: Surface<L>,
+    texture: usize,
+    per_size: f32,
+) -> Vec3<L> {
+    let [u, v] = kind.uv(i, &surface);
     let per_size = L::splat(per_size);
     texture::sample(&scene.textures[texture], u * per_size, v * per_size)
 }
@@ -261,30 +312,8 @@ pub fn shading_normal<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) ->
 }
 
 /// Primitive `id`'s surface near the points `p`, and its material.
-#[inline(always)]
 pub fn surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32) {
-    with_primitive!(scene, id, |kind, i| (kind.surface(i, p), kind.material(i)), else rare_surface(scene, id, p))
-}
-
-/// The same for what is not a plane, sphere or triangle; apart, so as not to weigh on those.
-#[inline(never)]
-fn rare_surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32) {
     with_primitive!(scene, id, |kind, i| (kind.surface(i, p), kind.material(i)))
-}
-
-/// Where the checkerboard shows its second colour; see [`Pigment::Checker`].
-#[inline(always)]
-fn odd_cell<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, per_size: f32) -> L::Mask {
-    let q = with_primitive!(scene, id, |kind, i| kind.checker(i, surface), else rare_checker(scene, id, surface))
-        * L::splat(per_size);
-    let half = (q.x.floor() + q.y.floor() + q.z.floor()) * L::splat(0.5);
-    !half.floor().eq(half)
-}
-
-/// What is not a plane, sphere or triangle; see [`rare_surface`].
-#[inline(never)]
-fn rare_checker<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Vec3<L> {
-    with_primitive!(scene, id, |kind, i| kind.checker(i, surface))
 }
 
 /// The unit normal where one ray hit a primitive, turned against the ray; zero for a ray that hit nothing.

@@ -112,8 +112,14 @@ fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, obser
     }
     observer.primary(&primary.rays);
     let mut stage = Stage { scene, radiance, queue, surfaces, lighting, candidates };
-    counts.shadow += stage.shade::<L, RICH>(primary, 1, observer);
-    while let Some((wave, depth, kind)) = stage.queue.take() {
+    let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
+    // All waves go through one call, which is compiled in place.
+    loop {
+        counts.shadow += stage.shade::<L, RICH>(queued.as_deref().unwrap_or(primary), depth, observer);
+        if let Some(wave) = queued.take() {
+            stage.queue.give_back(wave);
+        }
+        let Some((wave, at, kind)) = stage.queue.take() else { return counts };
         match kind {
             Kind::Reflection => {
                 counts.reflection += wave.rays.len as u64;
@@ -124,10 +130,8 @@ fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, obser
                 observer.refraction(&wave.rays);
             }
         }
-        counts.shadow += stage.shade::<L, RICH>(&wave, depth, observer);
-        stage.queue.give_back(wave);
+        (queued, depth) = (Some(wave), at);
     }
-    counts
 }
 
 /// What a tile's waves go through.
@@ -164,21 +168,28 @@ impl Stage<'_> {
         let Self { scene, radiance, surfaces, candidates, .. } = self;
         let mut any = false;
         surfaces.start(wave.rays.len);
-        nearest_hits::<L, RICH>(scene, &wave.rays, &bounds, candidates, |at, active, hit| {
-            if hit.found.any() {
-                any = true;
-                surfaces.find::<L, RICH>(scene, wave, at, hit);
-            }
-            let missed = active & !hit.found;
-            if missed.any() {
-                let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
-                let mut seen = sky * L::load(&wave.weight[at..]);
-                if RICH && scene.plan.absorbs {
-                    seen = seen.times(endless::<L>(scene, wave, at));
+        nearest_hits::<L, RICH>(
+            scene,
+            &wave.rays,
+            &bounds,
+            candidates,
+            #[inline(always)]
+            |at, active, hit| {
+                if hit.found.any() {
+                    any = true;
+                    surfaces.find::<L, RICH>(scene, wave, at, hit);
                 }
-                deposit::<L, RICH>(wave, at, seen, missed, radiance, depth == 1);
-            }
-        });
+                let missed = active & !hit.found;
+                if missed.any() {
+                    let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
+                    let mut seen = sky * L::load(&wave.weight[at..]);
+                    if RICH && scene.plan.absorbs {
+                        seen = seen.times(endless::<L>(scene, wave, at));
+                    }
+                    deposit::<L, RICH>(wave, at, seen, missed, radiance, depth == 1);
+                }
+            },
+        );
         any
     }
 

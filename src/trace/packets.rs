@@ -1,9 +1,9 @@
 //! Packets against candidates, one by one.
 
 use super::boxes::Boxes;
-use super::candidates::{Form, List, Lists};
+use super::candidates::{Form, Lists};
 use super::query::{Any, Nearest, Query};
-use crate::geometry::Primitives;
+use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Scene;
 
@@ -15,57 +15,72 @@ pub(super) struct Packet<L> {
     pub t_min: L,
 }
 
-impl<F: Form> Lists<F> {
+/// The candidates; the common kinds as slices, so that where they lie is known outside the loop over the packets.
+struct Found<'a, F: Form> {
+    planes: &'a [(F::Of<Planes>, u32)],
+    spheres: &'a [(F::Of<Spheres>, u32)],
+    triangles: &'a [(F::Of<Triangles>, u32)],
+    lists: &'a Lists<F>,
+}
+
+impl<'a, F: Form> Found<'a, F> {
+    #[inline(always)]
+    fn of(lists: &'a Lists<F>) -> Self {
+        Self { planes: &lists.planes, spheres: &lists.spheres, triangles: &lists.triangles, lists }
+    }
+
     /// Shows every candidate to the query, in rising order of ids, until it is done.
     ///
     /// `RARE` says that there is more than planes, spheres and triangles that are seen from both sides.
     #[inline(always)]
     fn visit<L: Lanes, Q: Query<L>, const RARE: bool>(&self, scene: &Scene, packet: Packet<L>, query: &mut Q) {
-        each::<F, _, L, Q, RARE>(&self.planes, &packet, query);
+        each::<F, Planes, L, Q, RARE>(self.planes, &packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, RARE>(&self.spheres, &packet, query);
+        each::<F, Spheres, L, Q, RARE>(self.spheres, &packet, query);
         if query.done() {
             return;
         }
-        each::<F, _, L, Q, RARE>(&self.triangles, &packet, query);
+        each::<F, Triangles, L, Q, RARE>(self.triangles, &packet, query);
         if RARE && !query.done() {
-            self.visit_rare(scene, &packet, query);
+            self.lists.visit_rare(scene, &packet, query);
         }
     }
+}
 
+impl<F: Form> Lists<F> {
     #[inline(never)]
     fn visit_rare<L: Lanes, Q: Query<L>>(&self, scene: &Scene, packet: &Packet<L>, query: &mut Q) {
         let boxes = Boxes::new(scene, packet);
-        each_boxed::<F, _, L, Q>(&self.quads, &boxes, packet, query);
+        each_boxed::<F, Quads, L, Q>(&self.quads, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each_boxed::<F, _, L, Q>(&self.cuboids, &boxes, packet, query);
+        each_boxed::<F, Cuboids, L, Q>(&self.cuboids, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each_boxed::<F, _, L, Q>(&self.cylinders, &boxes, packet, query);
+        each_boxed::<F, Cylinders, L, Q>(&self.cylinders, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each_boxed::<F, _, L, Q>(&self.cones, &boxes, packet, query);
+        each_boxed::<F, Cones, L, Q>(&self.cones, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each_boxed::<F, _, L, Q>(&self.tori, &boxes, packet, query);
+        each_boxed::<F, Tori, L, Q>(&self.tori, &boxes, packet, query);
         if query.done() {
             return;
         }
-        each_boxed::<F, _, L, Q>(&self.fractals, &boxes, packet, query);
+        each_boxed::<F, Fractals, L, Q>(&self.fractals, &boxes, packet, query);
     }
 }
 
 /// Shows every primitive of one kind to the query, which is not done yet, until it is.
 #[inline(always)]
 fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
-    records: &List<F, K>,
+    records: &[(F::Of<K>, u32)],
     packet: &Packet<L>,
     query: &mut Q,
 ) {
@@ -87,7 +102,7 @@ fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
 /// The same for a kind whose hits count only within their boxes; see [`super::boxes`].
 #[inline(always)]
 fn each_boxed<F: Form, K: Primitives, L: Lanes, Q: Query<L>>(
-    records: &List<F, K>,
+    records: &[(F::Of<K>, u32)],
     boxes: &Boxes<L>,
     packet: &Packet<L>,
     query: &mut Q,
@@ -117,6 +132,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
+    let candidates = Found::of(candidates);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
@@ -139,6 +155,7 @@ pub fn any<F: Form, L: Lanes, const RARE: bool>(
     rays: &RayBatch,
     mut take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
+    let candidates = Found::of(candidates);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
