@@ -1,0 +1,139 @@
+//! What is measured: the kinds of primitives, and scenes of one kind each.
+
+use glam::{Vec3, vec3};
+use raypacket::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
+use raypacket::scene::{self, Description, Scene, Sides};
+
+use crate::scenes::{self, Pcg, empty, mesh};
+
+/// Primitives of a scene.
+pub const PRIMITIVES: usize = 16;
+
+/// A kind of primitive.
+pub trait Kind {
+    const NAME: &'static str;
+    /// Where it has several tests: the name with the default one's.
+    const METHOD: &'static str = Self::NAME;
+    /// How far off the surface a hit may lie, in ε (8 + t), whatever the method; 8 as the middles of all but planes are
+    /// nearer to the origin.
+    const OFF: f64;
+    type Stored: Primitives;
+    fn stored(scene: &Scene) -> &Self::Stored;
+    /// Adds one, with the origin outside.
+    fn add(scene: &mut Description, rng: &mut Pcg);
+}
+
+/// A scene of one kind.
+pub fn sixteen<K: Kind>(rng: &mut Pcg) -> Description {
+    let mut scene = empty();
+    scene.name = K::NAME.into();
+    (0..PRIMITIVES).for_each(|_| K::add(&mut scene, rng));
+    scene
+}
+
+/// Within 4 to 7 of the origin, along −z.
+fn ahead(rng: &mut Pcg) -> Vec3 {
+    vec3(rng.range(-2.0, 2.0), rng.range(-2.0, 2.0), rng.range(-6.0, -4.0))
+}
+
+macro_rules! kind {
+    ($type:ident, $name:literal $(by $method:literal)?, $field:ident: $stored:ty, $off:expr, |$scene:ident, $rng:ident| $add:expr) => {
+        pub struct $type;
+        impl Kind for $type {
+            const NAME: &'static str = $name;
+            $(const METHOD: &'static str = concat!($name, "/", $method);)?
+            const OFF: f64 = $off;
+            type Stored = $stored;
+            fn stored(scene: &Scene) -> &$stored {
+                &scene.$field
+            }
+            fn add($scene: &mut Description, $rng: &mut Pcg) {
+                $add;
+            }
+        }
+    };
+}
+
+// 4 ε t for the height, and as much for the slope. Floors, so that what looks up misses them.
+kind!(Plane, "plane", planes: Planes, 8.0, |scene, rng| {
+    let normal = vec3(rng.range(-0.1, 0.1), 1.0, rng.range(-0.1, 0.1));
+    scene.planes.push(scenes::plane(normal, rng.range(3.0, 6.0)));
+});
+
+// The discriminant is off by 8 ε |f|² at the most, and the hit by that over the radius: below 8 ε · 64 / 0.2.
+kind!(Sphere, "sphere" by "stable", spheres: Spheres, 320.0, |scene, rng| {
+    scene.spheres.push(scenes::sphere(ahead(rng), rng.range(0.2, 0.9)));
+});
+
+// 8 ε (|o − a| + edge) / sin of the smallest angle: below 8 ε · 12 / 0.2.
+kind!(Triangle, "triangle" by "watertight", triangles: Triangles, 60.0, |scene, rng| {
+    // Close to equilateral, and turned towards the origin more or less.
+    let around = [vec3(0.0, 1.0, 0.0), vec3(0.87, -0.5, 0.0), vec3(-0.87, -0.5, 0.0)];
+    let center = ahead(rng);
+    scene.meshes.push(mesh(&[around.map(|corner| center + corner + 0.3 * rng.cube())]));
+});
+
+// As for triangles.
+kind!(Quad, "quad", quads: Quads, Triangle::OFF, |scene, rng| {
+    let [u, v] = [Vec3::X, Vec3::Y].map(|e| e + 0.3 * rng.cube());
+    scene.quads.push(scene::Quad { corner: ahead(rng), u, v, material: 0 });
+});
+
+// 3 ε t, and 2 ε t for the direction's length.
+kind!(AlignedBox, "box/aligned", cuboids: Cuboids, 5.0, |scene, rng| {
+    cuboid(scene, Vec3::ZERO, rng);
+});
+
+// 5 ε |o − centre| + 7 ε t + 2 ε |furthest corner|, and 2 ε t for the direction's length.
+kind!(TurnedBox, "box/turned", cuboids: Cuboids, 9.0, |scene, rng| {
+    let rotation = 180.0 * rng.cube();
+    cuboid(scene, rotation, rng);
+});
+
+// 8 ε (|o − base| + length + radius) + 6 ε t, below 8 ε · 9.5 + 6 ε t; twice that at a tangent.
+kind!(OpenCylinder, "cylinder/open", cylinders: Cylinders, 2.0 * 9.5, |scene, rng| cylinder(scene, false, rng));
+kind!(CappedCylinder, "cylinder/capped", cylinders: Cylinders, OpenCylinder::OFF, |scene, rng| {
+    cylinder(scene, true, rng);
+});
+
+// 12 ε (|o − narrow end| + length + radius) + 8 ε t, below 12 ε · 11.2 + 8 ε t; twice that at a tangent.
+kind!(OpenCone, "cone/open", cones: Cones, 2.0 * 17.0, |scene, rng| cone(scene, false, rng));
+kind!(CappedCone, "cone/capped", cones: Cones, OpenCone::OFF, |scene, rng| cone(scene, true, rng));
+
+// 12 ε (R + r) + 4 ε |o − center|, below 12 ε · 1.2 + 4 ε · 7, and 2 ε t for the direction's length; twice that at a
+// tangent.
+kind!(Torus, "torus", tori: Tori, 2.0 * 5.5, |scene, rng| {
+    let (center, axis) = (ahead(rng), rng.unit());
+    let (major_radius, minor_radius) = (rng.range(0.4, 0.9), rng.range(0.1, 0.3));
+    scene.tori.push(scene::Torus { center, axis, major_radius, minor_radius, material: 0 });
+});
+
+// 4 ε |o − center| + 5 ε radius, and 2 ε t for the direction's length.
+kind!(Fractal, "fractal", fractals: Fractals, 5.0, |scene, rng| {
+    let (center, radius) = (ahead(rng), rng.range(0.3, 0.8));
+    scene.fractals.push(scene::Fractal { center, radius, iterations: 3, material: 0 });
+});
+
+fn cuboid(scene: &mut Description, rotation: Vec3, rng: &mut Pcg) {
+    let (center, half) = (ahead(rng), Vec3::splat(0.5) + 0.3 * rng.cube());
+    scene.cuboids.push(scene::Cuboid { min: center - half, max: center + half, rotation, material: 0 });
+}
+
+fn cylinder(scene: &mut Description, caps: bool, rng: &mut Pcg) {
+    let [base, apex] = ends(rng);
+    let radius = rng.range(0.2, 0.7);
+    scene.cylinders.push(scene::Cylinder { base, apex, radius, caps, sides: Sides::Both, material: 0 });
+}
+
+/// Every other one with a tip.
+fn cone(scene: &mut Description, caps: bool, rng: &mut Pcg) {
+    let [base, apex] = ends(rng);
+    let (base_radius, apex_radius) = (rng.range(0.4, 0.9), rng.pick(&[0.0, 0.2]));
+    let sides = Sides::Both;
+    scene.cones.push(scene::Cone { base, base_radius, apex, apex_radius, caps, sides, material: 0 });
+}
+
+fn ends(rng: &mut Pcg) -> [Vec3; 2] {
+    let base = ahead(rng);
+    [base, base + rng.range(0.8, 1.8) * rng.unit()]
+}
