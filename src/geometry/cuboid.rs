@@ -16,6 +16,7 @@
 
 use super::face;
 pub use super::face::Aim;
+use super::frame::along;
 use super::{Balls, Bounded, Nearest, Primitives, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3};
 use glam::DMat3;
@@ -126,13 +127,6 @@ fn turned(degrees: glam::Vec3) -> DMat3 {
     let about_y = DMat3::from_cols_array(&[y.1, 0.0, -y.0, 0.0, 1.0, 0.0, y.0, 0.0, y.1]);
     let about_z = DMat3::from_cols_array(&[z.1, z.0, 0.0, -z.0, z.1, 0.0, 0.0, 0.0, 1.0]);
     about_z * about_y * about_x
-}
-
-/// A vector's coordinates along three axes.
-#[inline(always)]
-fn along<L: Lanes>(axes: &[Vec3<f32>; 3], v: Vec3<L>) -> Vec3<L> {
-    let [x, y, z] = axes.map(|axis| Vec3::splat(axis.into()).dot(v));
-    Vec3::new(x, y, z)
 }
 
 impl Bounded for Cuboids {

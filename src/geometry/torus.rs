@@ -30,7 +30,7 @@
 //! **Inside, and on the surface.** From inside the far side is hit. An origin within 8 ε (R + r) of the surface counts
 //! as on it: a ray that leaves it hits nothing there, one that enters the far side.
 
-use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame};
+use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
 use crate::math::{LaneMask, Lanes, Vec3, angle, powf};
 use glam::DVec3;
@@ -206,13 +206,6 @@ impl Primitives for Tori {
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
         along(&self.axes[i], surface.point - Vec3::splat(self.center(i)))
     }
-}
-
-/// A vector's components along three axes.
-#[inline(always)]
-fn along<L: Lanes>(axes: &[glam::Vec3; 3], v: Vec3<L>) -> Vec3<L> {
-    let [x, y, z] = axes.map(|axis| Vec3::splat(axis).dot(v));
-    Vec3::new(x, y, z)
 }
 
 /// The default; see the module's text.
