@@ -232,6 +232,17 @@ pub(super) fn agree<P: Primitives>(kind: &P, body: Body, far: f64, count: usize,
     answers.iter().flatten().count()
 }
 
+/// [`agree`] for these bodies, open and closed, seen from either side or both, from near and far.
+pub(super) fn all_agree<P: Primitives>(bodies: Vec<Body>, compiled: fn(Body) -> P) {
+    let rng = Rng::new(1);
+    for body in bodies.into_iter().flat_map(Body::variants) {
+        for far in [10.0, 1e4] {
+            let hits = agree(&compiled(body), body, far, 1000, &rng);
+            assert!(hits > 50, "{body:?}: {hits}");
+        }
+    }
+}
+
 /// That rays through a closed body that is smaller by their rounding hit the whole one, aimed at its rims from
 /// everywhere.
 pub(super) fn no_crack<P: Primitives>(kind: &P, body: Body, far: f64, count: usize, rng: &Rng) {
@@ -290,6 +301,21 @@ pub(super) fn no_acne<P: Primitives>(kind: &P, body: Body, count: usize, rng: &R
             }
         }
         assert!(!inward || hits > count * 9 / 10, "{body:?}: {hits}");
+    }
+}
+
+/// [`no_acne`] for bodies with these radii, tiny to huge, at the world's origin and away from it.
+pub(super) fn no_acne_at_any_scale<P: Primitives>(radii: &[[f32; 2]], compiled: fn(Body) -> P) {
+    let rng = Rng::new(3);
+    for scale in [1e-8f32, 1e-4, 1.0, 1e4, 1e8] {
+        for place in [0.0, 1.0, 1e3] {
+            let ends = [V::new(0.2, -0.1, 0.3), V::new(0.9, 0.8, -0.5)];
+            let at = |p: V| (p + V::new(0.6, -0.7, 0.4) * place) * scale;
+            for radii in radii {
+                let body = Body::new(ends.map(at), radii.map(|r| r * scale));
+                no_acne(&compiled(body), body, 1000, &rng);
+            }
+        }
     }
 }
 

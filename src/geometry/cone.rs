@@ -25,7 +25,7 @@
 //! cone flatter than 2⁻⁴⁰ of its radius is as high as that. What leaves the surface hits nothing there.
 
 use super::axial::{self, Crossing, slab};
-use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface};
+use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3, angle};
 
 /// The least height, in differences of the radii: far below ε, and its square a normal number.
@@ -127,9 +127,7 @@ impl Cones {
         let slant = length.hypot(outer - inner);
         let (cos, sin) = (length / slant, (outer - inner) / slant);
         let scale = 2f64.powi(-length.max(outer).log2().floor() as i32);
-        for (column, value) in self.narrow.iter_mut().zip(narrow.to_array()) {
-            column.push(value);
-        }
+        columns::push(&mut self.narrow, narrow);
         self.axes.push([t, b, axis].map(|a| a.as_vec3()));
         self.radii.push(radii);
         self.length.push(length as f32);
@@ -158,7 +156,7 @@ impl Cones {
     /// The middle of cone `i`'s narrow end.
     #[inline(always)]
     pub fn narrow(&self, i: usize) -> glam::Vec3 {
-        glam::Vec3::new(self.narrow[0][i], self.narrow[1][i], self.narrow[2][i])
+        columns::at(&self.narrow, i)
     }
 
     /// A point relative to cone `i`.
@@ -219,12 +217,9 @@ impl Primitives for Cones {
     type Seen<L: Lanes> = SeenCone<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> ConeRecord {
@@ -265,10 +260,6 @@ impl Primitives for Cones {
             caps: s.caps,
             sides: s.sides,
         }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
-        direction
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCone<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {

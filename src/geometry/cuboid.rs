@@ -16,7 +16,8 @@
 
 use super::face;
 pub use super::face::Aim;
-use super::{Balls, Bounded, Nearest, Primitives, Surface};
+use super::frame::along;
+use super::{Balls, Bounded, Nearest, Primitives, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3};
 use glam::DMat3;
 
@@ -62,10 +63,8 @@ pub struct SeenCuboid<L> {
 impl Cuboids {
     /// Adds a box: `rotation` in degrees about x, then y, then z.
     pub fn push(&mut self, min: glam::Vec3, max: glam::Vec3, rotation: glam::Vec3, material: u32) {
-        for axis in 0..3 {
-            self.min[axis].push(min[axis]);
-            self.max[axis].push(max[axis]);
-        }
+        columns::push(&mut self.min, min);
+        columns::push(&mut self.max, max);
         let turn = turned(rotation);
         let axes = [turn.x_axis, turn.y_axis, turn.z_axis].map(|axis| axis.as_vec3());
         self.axes.push((turn != DMat3::IDENTITY).then_some(axes));
@@ -76,8 +75,7 @@ impl Cuboids {
     /// The corners of box `i` with the least and the greatest coordinates, before they are turned.
     #[inline(always)]
     pub fn corners(&self, i: usize) -> [glam::Vec3; 2] {
-        let at = |c: &[Vec<f32>; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
-        [at(&self.min), at(&self.max)]
+        [&self.min, &self.max].map(|c| columns::at(c, i))
     }
 
     /// Centre and half the size of box `i`, each rounded once.
@@ -131,13 +129,6 @@ fn turned(degrees: glam::Vec3) -> DMat3 {
     about_z * about_y * about_x
 }
 
-/// A vector's coordinates along three axes.
-#[inline(always)]
-fn along<L: Lanes>(axes: &[Vec3<f32>; 3], v: Vec3<L>) -> Vec3<L> {
-    let [x, y, z] = axes.map(|axis| Vec3::splat(axis.into()).dot(v));
-    Vec3::new(x, y, z)
-}
-
 impl Bounded for Cuboids {
     fn balls(&self) -> &Balls {
         &self.balls
@@ -149,12 +140,9 @@ impl Primitives for Cuboids {
     type Seen<L: Lanes> = SeenCuboid<L>;
     type Aim<L: Lanes> = Aim<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> CuboidRecord {
@@ -172,10 +160,6 @@ impl Primitives for Cuboids {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenCuboid<f32>) -> SeenCuboid<L> {
         SeenCuboid { low: Vec3::splat(s.low.into()), high: Vec3::splat(s.high.into()), axes: s.axes }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Aim<L> {
-        Aim::new(direction)
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCuboid<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {

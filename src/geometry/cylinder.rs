@@ -20,7 +20,7 @@
 //! axis, nothing. A tangent hits when the computed discriminant is not negative.
 
 use super::axial::{self, Crossing, slab};
-use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface};
+use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3, angle};
 
 /// Squared sine of the angle to the axis below which a ray is parallel to it: 2⁻⁶⁰.
@@ -88,9 +88,7 @@ impl Cylinders {
     /// Adds a cylinder.
     pub fn push(&mut self, base: glam::Vec3, apex: glam::Vec3, radius: f32, caps: bool, sides: Sides, material: u32) {
         let (axes, length) = axial::axes(base, apex);
-        for (column, value) in self.base.iter_mut().zip(base.to_array()) {
-            column.push(value);
-        }
+        columns::push(&mut self.base, base);
         self.axes.push(axes.map(|a| a.as_vec3()));
         self.radius.push(radius);
         self.length.push(length as f32);
@@ -110,7 +108,7 @@ impl Cylinders {
     /// The middle of cylinder `i`'s end at height 0.
     #[inline(always)]
     pub fn base(&self, i: usize) -> glam::Vec3 {
-        glam::Vec3::new(self.base[0][i], self.base[1][i], self.base[2][i])
+        columns::at(&self.base, i)
     }
 
     /// A point's coordinates along T, B and A of cylinder `i`, from its base.
@@ -142,12 +140,9 @@ impl Primitives for Cylinders {
     type Seen<L: Lanes> = SeenCylinder<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> CylinderRecord {
@@ -180,10 +175,6 @@ impl Primitives for Cylinders {
             caps: s.caps,
             sides: s.sides,
         }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
-        direction
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCylinder<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {

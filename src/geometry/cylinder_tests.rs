@@ -30,13 +30,7 @@ fn bodies() -> Vec<Body> {
 
 #[test]
 fn kernel_and_reference_agree() {
-    let rng = Rng::new(1);
-    for body in bodies().into_iter().flat_map(Body::variants) {
-        for far in [10.0, 1e4] {
-            let hits = axial_tests::agree(&compiled(body), body, far, 1000, &rng);
-            assert!(hits > 50, "{body:?}: {hits}");
-        }
-    }
+    axial_tests::all_agree(bodies(), compiled);
 }
 
 #[test]
@@ -49,17 +43,7 @@ fn no_ray_slips_between_side_and_end() {
 
 #[test]
 fn rays_leave_the_surface() {
-    let rng = Rng::new(3);
-    for scale in [1e-8f32, 1e-4, 1.0, 1e4, 1e8] {
-        for place in [0.0, 1.0, 1e3] {
-            let ends = [vec3(0.2, -0.1, 0.3), vec3(0.9, 0.8, -0.5)];
-            let at = |p: V| (p + vec3(0.6, -0.7, 0.4) * place) * scale;
-            for radius in [0.6, 0.1] {
-                let body = Body::new(ends.map(at), [radius * scale; 2]);
-                axial_tests::no_acne(&compiled(body), body, 1000, &rng);
-            }
-        }
-    }
+    axial_tests::no_acne_at_any_scale(&[[0.6; 2], [0.1; 2]], compiled);
 }
 
 #[test]

@@ -21,6 +21,13 @@ impl<L: Lanes> Aim<L> {
     }
 }
 
+impl<L: Lanes> From<Vec3<L>> for Aim<L> {
+    #[inline(always)]
+    fn from(direction: Vec3<L>) -> Self {
+        Self::new(direction)
+    }
+}
+
 /// Where rays from the origin enter and leave the closed box from `low` to `high`; they meet it where the first is at
 /// most the second.
 ///

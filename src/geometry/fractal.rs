@@ -32,7 +32,7 @@
 
 use super::face;
 pub use super::face::Aim;
-use super::{Balls, Bounded, Nearest, Primitives, Surface};
+use super::{Balls, Bounded, Nearest, Primitives, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// ε, the unit roundoff.
@@ -153,9 +153,7 @@ impl Grid {
 impl Fractals {
     /// Adds a fractal.
     pub fn push(&mut self, center: glam::Vec3, radius: f32, iterations: u32, material: u32) {
-        for axis in 0..3 {
-            self.center[axis].push(center[axis]);
-        }
+        columns::push(&mut self.center, center);
         self.radius.push(radius);
         self.iterations.push(iterations.min(WIDTHS.len() as u32 - 1));
         self.material.push(material);
@@ -165,7 +163,7 @@ impl Fractals {
     /// The middle of fractal `i`.
     #[inline(always)]
     pub fn center(&self, i: usize) -> glam::Vec3 {
-        glam::Vec3::new(self.center[0][i], self.center[1][i], self.center[2][i])
+        columns::at(&self.center, i)
     }
 
     /// A box around fractal `i`.
@@ -188,12 +186,9 @@ impl Primitives for Fractals {
     type Seen<L: Lanes> = SeenFractal<L>;
     type Aim<L: Lanes> = Aim<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> FractalRecord {
@@ -206,10 +201,6 @@ impl Primitives for Fractals {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenFractal<f32>) -> SeenFractal<L> {
         SeenFractal { f: Vec3::splat(s.f.into()), radius: s.radius, iterations: s.iterations }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Aim<L> {
-        Aim::new(direction)
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenFractal<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {

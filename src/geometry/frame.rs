@@ -1,6 +1,8 @@
-//! Axes in a surface, from its normal.
+//! Axes in a surface, from its normal, and coordinates along axes.
 
 use glam::Vec3;
+
+use crate::math::{Lanes, Vec3 as Lane3};
 
 /// Two unit axes T and B = T × n in the surface with unit normal `n`, for patterns.
 ///
@@ -11,6 +13,13 @@ pub fn frame(n: Vec3) -> [Vec3; 2] {
     let axis = if (a.y >= a.x && a.y >= a.z) || a.x < a.z { Vec3::X } else { Vec3::Z };
     let t = (axis - n * n.dot(axis)).normalize();
     [t, t.cross(n)]
+}
+
+/// A vector's coordinates along three axes.
+#[inline(always)]
+pub(super) fn along<L: Lanes>(axes: &[impl Into<Vec3> + Copy; 3], v: Lane3<L>) -> Lane3<L> {
+    let [x, y, z] = axes.map(|axis| Lane3::splat(axis.into()).dot(v));
+    Lane3::new(x, y, z)
 }
 
 #[cfg(test)]

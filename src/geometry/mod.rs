@@ -7,10 +7,12 @@ mod axial;
 #[cfg(test)]
 mod axial_tests;
 mod balls;
+mod columns;
 pub mod cone;
 pub mod cuboid;
 pub mod cylinder;
 pub(crate) mod face;
+mod flat;
 pub mod fractal;
 mod frame;
 pub mod plane;
@@ -69,16 +71,24 @@ pub trait Primitives {
     /// The same as seen from the rays' origins.
     type Seen<L: Lanes>: Copy;
     /// What the test needs of the rays' directions; the directions themselves for most.
-    type Aim<L: Lanes>: Copy;
+    type Aim<L: Lanes>: Copy + From<Vec3<L>>;
 
+    /// The primitives' materials, as indices.
+    fn materials(&self) -> &[u32];
     /// The number of primitives.
-    fn len(&self) -> usize;
+    #[inline(always)]
+    fn len(&self) -> usize {
+        self.materials().len()
+    }
     /// Whether there is none.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
     /// Index of the material of primitive `i`.
-    fn material(&self, i: usize) -> u32;
+    #[inline(always)]
+    fn material(&self, i: usize) -> u32 {
+        self.materials()[i]
+    }
 
     /// Primitive `i` as stored.
     fn record(&self, i: usize) -> Self::Record;
@@ -87,7 +97,10 @@ pub trait Primitives {
     /// The same view in every lane.
     fn splat<L: Lanes>(seen: &Self::Seen<f32>) -> Self::Seen<L>;
     /// Prepares unit directions, once for all primitives of the kind.
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Self::Aim<L>;
+    #[inline(always)]
+    fn aim<L: Lanes>(direction: Vec3<L>) -> Self::Aim<L> {
+        direction.into()
+    }
     /// The default test: the nearest distance inside (`t_min`, `t_max`). Without `SIDED` all are seen from both sides,
     /// whatever their [`Sides`].
     fn nearest<L: Lanes, const SIDED: bool>(seen: &Self::Seen<L>, aim: &Self::Aim<L>, t_min: L, t_max: L)

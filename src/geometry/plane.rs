@@ -5,7 +5,7 @@
 //! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n|.
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
-use super::{Nearest, Primitives, Surface, frame};
+use super::{Nearest, Primitives, Surface, columns, frame};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// Planes, column by column.
@@ -71,7 +71,7 @@ impl Planes {
 
     /// Plane `i`'s normal.
     pub fn normal(&self, i: usize) -> glam::Vec3 {
-        glam::Vec3::new(self.normal[0][i], self.normal[1][i], self.normal[2][i])
+        columns::at(&self.normal, i)
     }
 }
 
@@ -80,12 +80,9 @@ impl Primitives for Planes {
     type Seen<L: Lanes> = SeenPlane<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
-    fn len(&self) -> usize {
-        self.distance.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> PlaneRecord {
@@ -98,10 +95,6 @@ impl Primitives for Planes {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenPlane<f32>) -> SeenPlane<L> {
         SeenPlane { normal: Vec3::splat(s.normal.into()), height: L::splat(s.height) }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
-        direction
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenPlane<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {

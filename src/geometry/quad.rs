@@ -4,7 +4,7 @@
 //! 8 ε (|o − corner| + longest edge) / sin of the angle between the edges. Edges belong to the quad. A ray in its plane
 //! misses it.
 
-use super::{Balls, Bounded, Nearest, Primitives, Surface, frame};
+use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, flat};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// Quads, column by column.
@@ -52,11 +52,9 @@ pub struct SeenQuad<L> {
 impl Quads {
     /// Adds a quad.
     pub fn push(&mut self, corner: glam::Vec3, u: glam::Vec3, v: glam::Vec3, material: u32) {
-        for axis in 0..3 {
-            self.corner[axis].push(corner[axis]);
-            self.u[axis].push(u[axis]);
-            self.v[axis].push(v[axis]);
-        }
+        columns::push(&mut self.corner, corner);
+        columns::push(&mut self.u, u);
+        columns::push(&mut self.v, v);
         self.material.push(material);
         let [u, v] = [u, v].map(|e| e.as_dvec3());
         let n = u.cross(v);
@@ -79,8 +77,7 @@ impl Quads {
     /// Corner and edges of quad `i`.
     #[inline(always)]
     pub fn corner_and_edges(&self, i: usize) -> [glam::Vec3; 3] {
-        let at = |c: &[Vec<f32>; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
-        [at(&self.corner), at(&self.u), at(&self.v)]
+        [&self.corner, &self.u, &self.v].map(|c| columns::at(c, i))
     }
 }
 
@@ -95,12 +92,9 @@ impl Primitives for Quads {
     type Seen<L: Lanes> = SeenQuad<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> QuadRecord {
@@ -120,31 +114,21 @@ impl Primitives for Quads {
         SeenQuad { n, u, v, height: L::splat(s.height) }
     }
     #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
-        direction
-    }
-    #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenQuad<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
         moller_trumbore(seen, *d, t_min, t_max)
     }
 
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        let normal = Vec3::splat(self.unit[i]);
-        let height = normal.dot(point - Vec3::splat(self.corner_and_edges(i)[0]));
-        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
+        flat::surface(self.unit[i], columns::at(&self.corner, i), self.reach[i], point)
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
-        let [corner, u, v] = self.corner_and_edges(i).map(Vec3::splat);
-        let q = surface.point - corner;
-        let per_area = L::splat(1.0) / surface.normal.dot(u.cross(v));
-        [surface.normal.dot(q.cross(v)) * per_area, surface.normal.dot(u.cross(q)) * per_area]
+        flat::coordinates(self.corner_and_edges(i), self.unit[i], surface.point)
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        let [t, b] = frame(self.unit[i]).map(Vec3::splat);
-        Vec3::new(surface.point.dot(t), surface.point.dot(b), L::zero())
+        flat::checker(self.unit[i], surface.point)
     }
 }
 

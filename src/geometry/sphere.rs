@@ -81,12 +81,9 @@ impl Primitives for Spheres {
     type Seen<L: Lanes> = SeenSphere<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> SphereRecord {
@@ -99,10 +96,6 @@ impl Primitives for Spheres {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenSphere<f32>) -> SeenSphere<L> {
         SeenSphere { f: Vec3::splat(s.f.into()), c: L::splat(s.c), r2: L::splat(s.r2), sides: s.sides }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
-        direction
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenSphere<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {

@@ -30,7 +30,7 @@
 //! **Inside, and on the surface.** From inside the far side is hit. An origin within 8 ε (R + r) of the surface counts
 //! as on it: a ray that leaves it hits nothing there, one that enters the far side.
 
-use super::{Balls, Bounded, Nearest, Primitives, Surface, frame};
+use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
 use crate::math::{LaneMask, Lanes, Vec3, angle, powf};
 use glam::DVec3;
@@ -97,7 +97,7 @@ pub struct SeenTorus<L> {
 impl Tori {
     /// Adds a torus.
     pub fn push(&mut self, center: glam::Vec3, axis: glam::Vec3, major: f32, minor: f32, material: u32) {
-        self.center.iter_mut().zip(center.to_array()).for_each(|(column, value)| column.push(value));
+        columns::push(&mut self.center, center);
         let a = axis.as_dvec3().normalize();
         // The frame is made exact before it is rounded, as ρ is taken along it.
         let across = frame(a.as_vec3())[0].as_dvec3();
@@ -116,7 +116,7 @@ impl Tori {
     /// Torus `i`'s centre.
     #[inline(always)]
     pub fn center(&self, i: usize) -> glam::Vec3 {
-        glam::Vec3::new(self.center[0][i], self.center[1][i], self.center[2][i])
+        columns::at(&self.center, i)
     }
 
     /// A box around torus `i`.
@@ -156,12 +156,9 @@ impl Primitives for Tori {
     type Seen<L: Lanes> = SeenTorus<L>;
     type Aim<L: Lanes> = Vec3<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> TorusRecord {
@@ -182,10 +179,6 @@ impl Primitives for Tori {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTorus<f32>) -> SeenTorus<L> {
         SeenTorus { f: Vec3::splat(s.f.into()), axes: s.axes, major: s.major, kappa: s.kappa, near: s.near }
-    }
-    #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Vec3<L> {
-        direction
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTorus<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
@@ -213,13 +206,6 @@ impl Primitives for Tori {
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
         along(&self.axes[i], surface.point - Vec3::splat(self.center(i)))
     }
-}
-
-/// A vector's components along three axes.
-#[inline(always)]
-fn along<L: Lanes>(axes: &[glam::Vec3; 3], v: Vec3<L>) -> Vec3<L> {
-    let [x, y, z] = axes.map(|axis| Vec3::splat(axis).dot(v));
-    Vec3::new(x, y, z)
 }
 
 /// The default; see the module's text.

@@ -18,7 +18,7 @@
 //! The plane is missed by at most 8 ε (|o − a| + longest edge) / sin of the smallest angle, by both.
 
 use super::face::{self, between};
-use super::{Nearest, Primitives, Sides, Surface, frame};
+use super::{Nearest, Primitives, Sides, Surface, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 
 /// Triangles, column by column.
@@ -133,12 +133,17 @@ impl<L: Lanes> Aim<L> {
     }
 }
 
+impl<L: Lanes> From<Vec3<L>> for Aim<L> {
+    #[inline(always)]
+    fn from(direction: Vec3<L>) -> Self {
+        Self::new(direction)
+    }
+}
+
 impl Triangles {
     /// Adds a triangle by its corners.
     pub fn push(&mut self, corners: [glam::Vec3; 3], sides: Sides, material: u32) {
-        for (columns, corner) in self.corners.iter_mut().zip(corners) {
-            columns.iter_mut().zip(corner.to_array()).for_each(|(column, value)| column.push(value));
-        }
+        self.corners.iter_mut().zip(corners).for_each(|(column, corner)| columns::push(column, corner));
         self.sides.push(sides);
         self.material.push(material);
         // In f64, where no product of lengths overflows or vanishes.
@@ -153,8 +158,8 @@ impl Triangles {
     /// The corners of triangle `i`.
     #[inline(always)]
     pub fn corners(&self, i: usize) -> [glam::Vec3; 3] {
-        let at = |c: &[Vec<f32>; 3]| glam::Vec3::new(c[0][i], c[1][i], c[2][i]);
-        [at(&self.corners[0]), at(&self.corners[1]), at(&self.corners[2])]
+        let [a, b, c] = &self.corners;
+        [a, b, c].map(|corner| columns::at(corner, i))
     }
 
     /// The first corner and the edges from there to the others.
@@ -167,11 +172,7 @@ impl Triangles {
     /// The barycentric coordinates of b and c at a point of the plane.
     #[inline(always)]
     fn barycentric<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [L; 2] {
-        let [a, e1, e2] = self.corner_and_edges(i).map(Vec3::splat);
-        let unit = Vec3::splat(self.unit[i]);
-        let q = point - a;
-        let per_area = L::splat(1.0) / unit.dot(e1.cross(e2));
-        [unit.dot(q.cross(e2)) * per_area, unit.dot(e1.cross(q)) * per_area]
+        flat::coordinates(self.corner_and_edges(i), self.unit[i], point)
     }
 
     /// The unit normal for shading, interpolated where there are vertex normals, and on the side of the geometric one
@@ -195,12 +196,9 @@ impl Primitives for Triangles {
     type Seen<L: Lanes> = SeenTriangle<L>;
     type Aim<L: Lanes> = Aim<L>;
 
-    fn len(&self) -> usize {
-        self.material.len()
-    }
     #[inline(always)]
-    fn material(&self, i: usize) -> u32 {
-        self.material[i]
+    fn materials(&self) -> &[u32] {
+        &self.material
     }
     #[inline(always)]
     fn record(&self, i: usize) -> TriangleRecord {
@@ -225,10 +223,6 @@ impl Primitives for Triangles {
         }
     }
     #[inline(always)]
-    fn aim<L: Lanes>(direction: Vec3<L>) -> Aim<L> {
-        Aim::new(direction)
-    }
-    #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
         if !SIDED || seen.sides == Sides::Both {
             return watertight(seen, aim, t_min, t_max);
@@ -246,9 +240,7 @@ impl Primitives for Triangles {
 
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
-        let normal = Vec3::splat(self.unit[i]);
-        let height = normal.dot(point - Vec3::splat(self.corners(i)[0]));
-        Surface { point: normal.mul_add(-height, point), normal, reach: self.reach[i] }
+        flat::surface(self.unit[i], self.corners(i)[0], self.reach[i], point)
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
@@ -260,8 +252,7 @@ impl Primitives for Triangles {
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        let [t, b] = frame(self.unit[i]).map(Vec3::splat);
-        Vec3::new(surface.point.dot(t), surface.point.dot(b), L::zero())
+        flat::checker(self.unit[i], surface.point)
     }
 }
 

@@ -8,6 +8,7 @@ mod glass;
 mod leak;
 mod lights;
 mod reintersect;
+mod sides;
 mod sizes;
 mod symmetry;
 mod textbook;

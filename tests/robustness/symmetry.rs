@@ -1,5 +1,7 @@
 //! What must not change a picture: a mirror, a power of two, another place.
 
+mod kinds;
+
 use glam::{Vec3, vec3};
 use raypacket::measure::verify::verify;
 use raypacket::render::{Camera, Film, Kernel, primary_hits, render};
@@ -39,6 +41,13 @@ fn scenes() -> Vec<Description> {
     scenes
 }
 
+/// A camera's mirror image; `flip` is −1 for the axes whose sign changes.
+fn image(camera: &Camera, flip: Vec3) -> Camera {
+    let wide = flip.as_dvec3();
+    let Camera { eye, corner, across, down } = *camera;
+    Camera { eye: eye * flip, corner: corner * wide, across: across * wide, down: down * wide }
+}
+
 /// Every operation is the same for −x as for x, so the mirrored picture is the same to the bit.
 #[test]
 fn mirrored_from_x_to_minus_x() {
@@ -49,9 +58,7 @@ fn mirrored_from_x_to_minus_x() {
         let mut mirrored = mapped(&scene, mirror, 1.0);
         mirrored.planes.iter_mut().for_each(|p| p.normal = mirror(p.normal));
         let camera = Camera::new(&scene.camera, SIZE[0] as f32 / SIZE[1] as f32);
-        let Camera { eye, corner, across, down } = camera;
-        let flip = glam::DVec3::new(-1.0, 1.0, 1.0);
-        let image = Camera { eye: mirror(eye), corner: corner * flip, across: across * flip, down: down * flip };
+        let image = image(&camera, mirror(Vec3::ONE));
         let [original, mirrored] = [compiled(&scene), compiled(&mirrored)];
         for kernel in Kernel::ALL {
             let a = primary_hits(&original, &camera, kernel, SIZE[0], SIZE[1]);

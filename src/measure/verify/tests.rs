@@ -2,7 +2,7 @@
 use super::bound::U;
 use super::*;
 use crate::reference::{Camera, Tracer};
-use crate::scene::{CameraDescription, Light, Material, Mesh, Pigment, Plane, Sides, Sphere};
+use crate::scene::{CameraDescription, Cylinder, Light, Material, Mesh, Pigment, Plane, Sides, Sphere};
 use crate::trace::NONE;
 use glam::{Vec3, vec3};
 
@@ -162,6 +162,78 @@ fn a_wrong_hit_in_the_interior_is_not_explained() {
     wrong.t[at(5, 3)] = 7.0;
     assert_eq!(wrong.primitive[at(5, 3)], NONE);
     assert_eq!(compare(&wrong).t_unexplained, 2);
+}
+
+/// Of a cylinder and the sphere that it ends in, of the same radius ½: the middle pixel looks straight at them, `before`
+/// the end, where the cylinder is the nearer by ½ − √(¼ − before²).
+fn touching(before: f32) -> Description {
+    let mut scene = scene();
+    let end = Vec3::Y;
+    scene.camera.eye = vec3(-before, 1.0, 5.0);
+    scene.camera.look_at = vec3(-before, 1.0, 0.0);
+    scene.planes.clear();
+    scene.meshes.clear();
+    scene.spheres = vec![Sphere { center: end, radius: 0.5, sides: Sides::Both, material: 2 }];
+    let base = end - 2.0 * Vec3::X;
+    let cylinder = Cylinder { base, apex: end, radius: 0.5, caps: false, sides: Sides::Both, material: 2 };
+    scene.cylinders.push(cylinder);
+    scene
+}
+
+const SPHERE: u32 = 0;
+const CYLINDER: u32 = 1;
+
+/// What becomes of an answer that says `primitive` in the middle of [`touching`], at the primitive's own distance or
+/// where there is none the cylinder's, times `1 + off`: how many hits differ, and how many are unexplained.
+fn judged(before: f32, primitive: u32, off: f64) -> [usize; 2] {
+    let scene = touching(before);
+    let tracer = Tracer::new(&scene);
+    let (eye, ahead) = (scene.camera.eye.as_dvec3(), DVec3::NEG_Z);
+    let distance = |id: u32| tracer.distance(id, eye, ahead);
+    let middle = at(SIZE[0] / 2, SIZE[1] / 2);
+    let mut answers = answers(&scene, 0.0);
+    assert_eq!(answers.primitive[middle], CYLINDER, "the truth");
+    answers.primitive[middle] = primitive;
+    answers.t[middle] = (distance(primitive).or(distance(CYLINDER)).unwrap() * (1.0 + off)) as f32;
+    let comparison = Truth::new(&scene, SIZE[0], SIZE[1]).compare(&answers.view());
+    [comparison.hits_different, comparison.hits_unexplained]
+}
+
+#[test]
+fn touching_surfaces_explain_each_other() {
+    let before = 3e-4;
+    // No ray within the bound, k u s = 5e-6 aside and as much by its turn, sees the sphere as the nearest.
+    let (scene, reach) = (touching(before), 16.0 * U * 5.2 * 2.0);
+    for i in -10..=10 {
+        let aside = DVec3::X * (f64::from(i) / 10.0 * reach);
+        let hit = Tracer::new(&scene).intersect(scene.camera.eye.as_dvec3() + aside, DVec3::NEG_Z, f64::INFINITY);
+        assert_eq!(hit.unwrap().primitive, CYLINDER);
+    }
+    assert_eq!(judged(before, SPHERE, 0.0), [1, 0]);
+    assert_eq!(judged(before, SPHERE, 8.0 * U), [1, 0], "rounded");
+    assert_eq!(judged(before, SPHERE, 80.0 * U), [1, 1], "at a distance of its own");
+    assert_eq!(judged(before, SPHERE, -80.0 * U), [1, 1], "nearer than either");
+}
+
+#[test]
+fn what_lies_behind_or_aside_is_not_explained() {
+    // The sphere lies behind the cylinder by 5, 20 and 2e4 times a relative k u.
+    for before in [0.005, 0.01, 0.3] {
+        let behind = 0.5 - (0.25 - f64::from(before).powi(2)).sqrt();
+        assert!(behind > 4.0 * K * U * 4.5, "{behind}");
+        assert_eq!(judged(before, SPHERE, 0.0), [1, 1], "{before} before the end");
+    }
+    // Past the sphere, and nothing at all, at the distance of what is there.
+    assert_eq!(judged(1.0, SPHERE, 0.0), [1, 1], "a sphere that the ray misses");
+    assert_eq!(judged(1.0, 7, 0.0), [1, 1], "no primitive of the scene");
+    // Where nothing is: a hit of either.
+    for primitive in [SPHERE, CYLINDER] {
+        let scene = touching(1.0);
+        let mut answers = answers(&scene, 0.0);
+        assert_eq!(answers.primitive[at(3, 3)], NONE);
+        (answers.primitive[at(3, 3)], answers.t[at(3, 3)]) = (primitive, 4.5);
+        assert_eq!(Truth::new(&scene, SIZE[0], SIZE[1]).compare(&answers.view()).hits_unexplained, 1, "{primitive}");
+    }
 }
 
 #[test]
