@@ -31,8 +31,10 @@ impl fmt::Display for Summary<'_> {
         writeln!(f, "lights      {}, irradiance = {fall_off}", scene.lights.len())?;
         let materials: Vec<String> = scene.materials.iter().map(|m| one_line(&m.name)).collect();
         writeln!(f, "materials   {}", list(materials.len(), &materials))?;
-        let textures: Vec<String> = scene.textures.iter().map(|t| format!("{} x {}", t.width, t.height)).collect();
-        writeln!(f, "textures    {}", list(textures.len(), &textures))?;
+        if !scene.textures.is_empty() {
+            let textures: Vec<String> = scene.textures.iter().map(|t| format!("{} x {}", t.width, t.height)).collect();
+            writeln!(f, "textures    {}", list(textures.len(), &textures))?;
+        }
         writeln!(f, "sky         {}", sky(&scene.sky))?;
         writeln!(f, "max depth   {}", settings.max_depth)?;
         writeln!(

@@ -104,6 +104,10 @@ fn info_tells_what_a_scene_holds() {
         assert!(run.stdout.contains(words), "no {words:?} in {}", run.stdout);
     }
     assert!(raypacket(folder.path(), "info").good().stdout.contains("classic"));
+    assert!(!run.stdout.contains("textures"), "it has none: {}", run.stdout);
+    assert!(run.stdout.contains("\n  shadows     1 stream a wave"), "{}", run.stdout);
+    let run = raypacket(folder.path(), "info textures").good();
+    assert!(run.stdout.contains("\ntextures    2: 512 x 256, 256 x 256\n"), "{}", run.stdout);
 }
 
 #[test]
