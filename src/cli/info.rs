@@ -80,7 +80,13 @@ fn sky(sky: &Sky) -> String {
     }
 }
 
-/// How many, and what.
+/// How many, and what; of many only the first.
 fn list(n: usize, items: &[String]) -> String {
-    if items.is_empty() { n.to_string() } else { format!("{n}: {}", items.join(", ")) }
+    const MOST: usize = 12;
+    let shown = items[..items.len().min(MOST)].join(", ");
+    match items.len() {
+        0 => n.to_string(),
+        all if all > MOST => format!("{n}: {shown} and {} more", all - MOST),
+        _ => format!("{n}: {shown}"),
+    }
 }
