@@ -125,7 +125,7 @@ fn draw_legend(picture: &mut Picture) {
 fn legible(color: u32) -> u32 {
     let channels = [16, 8, 0].map(|shift| (color >> shift) & 255);
     let most = channels.into_iter().max().unwrap_or(0).max(1);
-    channels.into_iter().fold(0, |legible, channel| legible << 8 | channel * LEGIBLE.max(most) / most)
+    channels.into_iter().fold(0, |legible, channel| (legible << 8) | (channel * LEGIBLE.max(most) / most))
 }
 
 fn length_text(length: f64) -> String {
