@@ -1,4 +1,4 @@
-//! A CPU ray tracer that traces SIMD packets and proves its answers against a scalar reference.
+//! A CPU ray tracer that traces SIMD packets and checks its answers against a scalar reference.
 //!
 //! # The way of a ray
 //!

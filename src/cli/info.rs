@@ -31,8 +31,10 @@ impl fmt::Display for Summary<'_> {
         writeln!(f, "lights      {}, irradiance = {fall_off}", scene.lights.len())?;
         let materials: Vec<String> = scene.materials.iter().map(|m| one_line(&m.name)).collect();
         writeln!(f, "materials   {}", list(materials.len(), &materials))?;
-        let textures: Vec<String> = scene.textures.iter().map(|t| format!("{} x {}", t.width, t.height)).collect();
-        writeln!(f, "textures    {}", list(textures.len(), &textures))?;
+        if !scene.textures.is_empty() {
+            let textures: Vec<String> = scene.textures.iter().map(|t| format!("{} x {}", t.width, t.height)).collect();
+            writeln!(f, "textures    {}", list(textures.len(), &textures))?;
+        }
         writeln!(f, "sky         {}", sky(&scene.sky))?;
         writeln!(f, "max depth   {}", settings.max_depth)?;
         writeln!(
@@ -78,7 +80,13 @@ fn sky(sky: &Sky) -> String {
     }
 }
 
-/// How many, and what.
+/// How many, and what; of many only the first.
 fn list(n: usize, items: &[String]) -> String {
-    if items.is_empty() { n.to_string() } else { format!("{n}: {}", items.join(", ")) }
+    const MOST: usize = 12;
+    let shown = items[..items.len().min(MOST)].join(", ");
+    match items.len() {
+        0 => n.to_string(),
+        all if all > MOST => format!("{n}: {shown} and {} more", all - MOST),
+        _ => format!("{n}: {shown}"),
+    }
 }

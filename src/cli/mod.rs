@@ -19,7 +19,7 @@ use clap::{Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
 
-/// A CPU ray tracer that traces SIMD packets and proves its answers against a scalar reference
+/// A CPU ray tracer that traces SIMD packets and checks its answers against a scalar reference
 #[derive(Parser)]
 #[command(name = "raypacket", version, args_conflicts_with_subcommands = true)]
 struct Cli {

@@ -261,7 +261,8 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let [w, h] = self.size;
         let valid = if self.valid { "answers agree" } else { "ANSWERS DISAGREE" };
-        writeln!(f, "{}  {w}×{h}  {} threads  {}  {valid}", self.scene, self.threads, self.isa)?;
+        let threads = if self.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", self.threads) };
+        writeln!(f, "{}  {w}×{h}  {threads}  {}  {valid}", self.scene, self.isa)?;
         write!(f, "{:12} {:6} {:>10} {:>10} {:>12} {:>12}", "query", "kernel", "rays", "hits", "Mrays/s", "best")?;
         for r in &self.results {
             write!(

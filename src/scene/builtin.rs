@@ -61,7 +61,9 @@ pub fn load_with_progress(name_or_path: &str, progress: Progress<'_>) -> Result<
         Some("toml") => read_with_progress(path, progress),
         Some("obj") => read_obj(path, progress),
         Some("nff") => read_nff(path, progress),
-        Some(format) if path.is_file() => Err(unsupported(path, &format!("scenes in .{format} files"))),
+        Some(_) if path.is_file() => {
+            Err(ReadError::File { path: path.into(), problem: "a scene is a .toml, .nff or .obj file".into() })
+        }
         None if path.is_file() => read_with_progress(path, progress),
         _ => match BUILTINS.iter().find(|builtin| builtin.name == name_or_path) {
             Some(builtin) => {
@@ -73,10 +75,6 @@ pub fn load_with_progress(name_or_path: &str, progress: Progress<'_>) -> Result<
             }
         },
     }
-}
-
-fn unsupported(path: &Path, what: &str) -> ReadError {
-    ReadError::File { path: path.into(), problem: format!("{what} are not supported yet") }
 }
 
 #[cfg(test)]

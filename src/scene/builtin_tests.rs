@@ -150,7 +150,7 @@ fn what_cannot_be_loaded_is_said_in_one_line() {
         ),
         ("bunny.obj", "bunny.obj: No such file or directory (os error 2)"),
         ("balls.NFF", "balls.NFF: No such file or directory (os error 2)"),
-        ("Cargo.lock", "Cargo.lock: scenes in .lock files are not supported yet"),
+        ("Cargo.lock", "Cargo.lock: a scene is a .toml, .nff or .obj file"),
         ("none.toml", "none.toml: No such file or directory (os error 2)"),
     ] {
         assert_eq!(load(name).unwrap_err().to_string(), message);

@@ -220,13 +220,16 @@ impl fmt::Display for Plan {
         }
         let from_light = self.shadows.iter().filter(|s| **s == ShadowStart::Light).count();
         let from_point = self.shadows.len() - from_light;
+        let streams = |n: usize| if n == 1 { "1 stream".to_owned() } else { format!("{n} streams") };
         if from_light > 0 {
-            writeln!(f, "shadows     {from_light} streams a wave from lights, so that their rays share an origin")?;
+            let streams = streams(from_light);
+            writeln!(f, "shadows     {streams} a wave from lights, so that their rays share an origin")?;
         }
         if from_point > 0 {
+            let streams = streams(from_point);
             writeln!(
                 f,
-                "shadows     {from_point} streams a wave towards lights over {FARTHEST} sizes from a primitive, or from \
+                "shadows     {streams} a wave towards lights over {FARTHEST} sizes from a primitive, or from \
                  what is seen: too far to aim at it from there"
             )?;
         }

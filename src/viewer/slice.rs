@@ -24,6 +24,8 @@ const REFRACTION: u32 = 0xC0_60_D0;
 const SHADOW: u32 = 0x34_68_2C;
 const BLOCKED: u32 = 0x68_2C_34;
 const LIGHT: u32 = 0xFF_E8_80;
+/// What the brightest channel of a word has at least.
+const LEGIBLE: u32 = 0xE0;
 const LEGEND: [(u32, &str); 5] = [
     (PRIMARY, "primary"),
     (REFLECTION, "reflection"),
@@ -114,9 +116,16 @@ fn draw_legend(picture: &mut Picture) {
     text::panel(picture, 0, 0, &[" ".repeat(names.join(" ").len())], 0);
     let mut x = text::PADDING;
     for (color, name) in LEGEND {
-        text::write(picture, x, text::PADDING, name, color);
+        text::write(picture, x, text::PADDING, name, legible(color));
         x += (name.len() + 1) * text::char_width();
     }
+}
+
+/// The colour of a line, made bright enough for letters: many lines may be dark, thin letters may not.
+fn legible(color: u32) -> u32 {
+    let channels = [16, 8, 0].map(|shift| (color >> shift) & 255);
+    let most = channels.into_iter().max().unwrap_or(0).max(1);
+    channels.into_iter().fold(0, |legible, channel| (legible << 8) | (channel * LEGIBLE.max(most) / most))
 }
 
 fn length_text(length: f64) -> String {
@@ -190,6 +199,17 @@ mod tests {
         }
         for (width, height) in [(0, 0), (1, 1), (0, 9), (9, 0), (3, 700), (701, 50)] {
             drawn(&paths, width, height);
+        }
+    }
+
+    #[test]
+    fn the_legend_is_in_the_lines_hues_and_legible() {
+        assert_eq!([0x00_00_00, 0x70_38_00, 0xFF_10_20].map(legible), [0x00_00_00, 0xE0_70_00, 0xFF_10_20]);
+        let picture = drawn(&[], 512, 512);
+        for (color, name) in LEGEND {
+            assert!(picture.pixels[..512 * 28].contains(&legible(color)), "{name}");
+            let most = [16, 8, 0].map(|shift| (legible(color) >> shift) & 255).into_iter().max();
+            assert!(most >= Some(LEGIBLE), "{name}: {color:06x}");
         }
     }
 

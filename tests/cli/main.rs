@@ -104,6 +104,15 @@ fn info_tells_what_a_scene_holds() {
         assert!(run.stdout.contains(words), "no {words:?} in {}", run.stdout);
     }
     assert!(raypacket(folder.path(), "info").good().stdout.contains("classic"));
+    assert!(!run.stdout.contains("textures"), "it has none: {}", run.stdout);
+    assert!(run.stdout.contains("\n  shadows     1 stream a wave"), "{}", run.stdout);
+    let many: String = (10..23).map(|i| format!("[materials.m{i}]\n")).collect();
+    fs::write(folder.path().join("many.toml"), many).unwrap();
+    let run = raypacket(folder.path(), "info many.toml").good();
+    assert!(run.stdout.contains("\nmaterials   13: m10, m11, m12, "), "{}", run.stdout);
+    assert!(run.stdout.contains(", m21 and 1 more\n"), "{}", run.stdout);
+    let run = raypacket(folder.path(), "info textures").good();
+    assert!(run.stdout.contains("\ntextures    2: 512 x 256, 256 x 256\n"), "{}", run.stdout);
 }
 
 #[test]
