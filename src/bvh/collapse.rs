@@ -23,6 +23,12 @@ impl Choices {
     /// Never anything but a block.
     pub const LEAF: Self = Self(Self::BLOCK);
 
+    /// Whether it is a range that was not split.
+    #[cfg(test)]
+    pub fn is_leaf(self) -> bool {
+        self.0 == Self::BLOCK
+    }
+
     /// Whether it is a block when it is one child.
     pub fn is_block(self) -> bool {
         self.0 & Self::BLOCK != 0
