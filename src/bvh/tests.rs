@@ -108,7 +108,7 @@ impl Check<'_> {
     fn child(&mut self, child: Child) -> (Aabb, usize) {
         let i = child.index();
         match child.kind() {
-            Kind::Node => return self.node(i),
+            Kind::Node => self.node(i),
             Kind::Triangles => {
                 let block = self.bvh.triangles[i];
                 let corners = |lane| block.corners.map(|c| Vec3::from(c.map(|column| column[lane])));
