@@ -33,12 +33,11 @@ impl Grid {
         Self { low: centers.min, scale, last: (bins - 1) as f32 }
     }
 
-    /// The bins on the three axes.
+    /// The bins of a middle on the three axes, plus [`TO_INTEGER`].
     #[inline(always)]
-    fn bins(&self, r: &Ref) -> [usize; 3] {
-        let at = (r.center() - self.low) * self.scale - 0.5;
-        let at = at.max(Vec3A::ZERO).min(Vec3A::splat(self.last)) + TO_INTEGER;
-        [at.x, at.y, at.z].map(|v| v.to_bits() as usize & (MOST_BINS - 1))
+    fn bins(&self, center: Vec3A) -> Vec3A {
+        let at = (center - self.low) * self.scale - 0.5;
+        at.max(Vec3A::ZERO).min(Vec3A::splat(self.last)) + TO_INTEGER
     }
 }
 
@@ -46,15 +45,17 @@ impl Grid {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Split {
     grid: Grid,
-    axis: usize,
-    /// The first bin to the right.
-    bin: usize,
+    /// The first bin to the right, plus [`TO_INTEGER`], on the axis of the split; −∞ on the others.
+    plane: Vec3A,
+    /// The boxes of both sides.
+    pub sides: [Bounds; 2],
 }
 
 impl Split {
+    /// Whether a primitive with this middle is to the left.
     #[inline(always)]
-    pub fn is_left(&self, r: &Ref) -> bool {
-        self.grid.bins(r)[self.axis] < self.bin
+    pub fn is_left(&self, center: Vec3A) -> bool {
+        self.grid.bins(center).cmplt(self.plane).any()
     }
 }
 
@@ -101,14 +102,25 @@ impl Bins {
         }
     }
 
-    #[inline(never)]
     fn fill(&mut self, refs: &[Ref], grid: &Grid) {
-        for r in refs {
-            let (at, bounds) = (grid.bins(r), r.bounds());
-            for axis in 0..3 {
-                self.bounds[axis][at[axis]].add(&bounds);
-                self.count[axis][at[axis]] += 1;
-            }
+        // Neighbours mostly belong to the same bin, and would wait for each other: so those far apart alternate.
+        let (a, b) = refs.split_at(refs.len() / 2);
+        for (a, b) in a.iter().zip(b) {
+            self.put(a, grid);
+            self.put(b, grid);
+        }
+        if let Some(last) = b.get(a.len()) {
+            self.put(last, grid);
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, r: &Ref, grid: &Grid) {
+        let (at, bounds) = (grid.bins(r.center()), r.bounds());
+        for (axis, at) in [at.x, at.y, at.z].into_iter().enumerate() {
+            let bin = at.to_bits() as usize & (MOST_BINS - 1);
+            self.bounds[axis][bin].add(&bounds);
+            self.count[axis][bin] += 1;
         }
     }
 
@@ -126,7 +138,7 @@ impl Bins {
         let longest = (bounds.max * 0.25 - bounds.min * 0.25).max_element();
         let scale = 0.25 * (1.0 / longest).min(f32::MAX);
         let mut best = (f32::INFINITY, usize::MAX);
-        let mut split = None;
+        let mut split: Option<(usize, usize)> = None;
         for axis in 0..3 {
             let (boxes, count) = (&self.bounds[axis], &self.count[axis]);
             let mut right_cost = [0.0; MOST_BINS];
@@ -148,10 +160,15 @@ impl Bins {
                 let candidate = (cost, left.abs_diff(len - left));
                 if candidate < best {
                     best = candidate;
-                    split = Some(Split { grid: *grid, axis, bin });
+                    split = Some((axis, bin));
                 }
             }
         }
-        split
+        let (axis, bin) = split?;
+        let mut plane = Vec3A::NEG_INFINITY;
+        plane[axis] = bin as f32 + TO_INTEGER;
+        let side = |boxes: &[Bounds]| boxes.iter().fold(Bounds::EMPTY, |a, b| a.union(*b));
+        let (left, right) = self.bounds[axis][..bins].split_at(bin);
+        Some(Split { grid: *grid, plane, sides: [side(left), side(right)] })
     }
 }

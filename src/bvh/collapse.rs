@@ -5,6 +5,8 @@
 //! node. Deviations: a block is a leaf of at most eight primitives of one class, and costs are f64, in which areas of
 //! f32 boxes neither overflow nor vanish.
 
+use std::array::from_fn;
+
 use super::aabb::Aabb;
 use super::{BLOCK, BLOCK_COST, NODE_COST, PRIMITIVE_COST, WIDTH};
 
@@ -23,6 +25,12 @@ impl Choices {
     /// Never anything but a block.
     pub const LEAF: Self = Self(Self::BLOCK);
 
+    /// Whether it is a range that was not split.
+    #[cfg(test)]
+    pub fn is_leaf(self) -> bool {
+        self.0 == Self::BLOCK
+    }
+
     /// Whether it is a block when it is one child.
     pub fn is_block(self) -> bool {
         self.0 & Self::BLOCK != 0
@@ -30,7 +38,7 @@ impl Choices {
 
     /// How many of at most `children` children come from the left part; 0 when it is the same as with one less.
     pub fn left(self, children: usize) -> usize {
-        (self.0 >> (3 * (children - 2))) as usize & 7
+        (self.0 >> shift(children)) as usize & 7
     }
 }
 
@@ -42,37 +50,34 @@ impl Costs {
 
     /// Two subtrees together; with `len` when all primitives have the same class.
     pub fn parent(left: &Self, right: &Self, bounds: Aabb, len: Option<usize>) -> (Self, Choices) {
-        let mut choices = 0;
-        // At exactly two children and more, before it is known what one child costs.
-        let mut apart = [f64::INFINITY; WIDTH + 1];
-        for children in 2..=WIDTH {
-            let mut best = (f64::INFINITY, 0);
-            for k in 1..children {
-                let cost = left.0[k - 1] + right.0[children - k - 1];
-                if cost < best.0 {
-                    best = (cost, k as u32);
-                }
-            }
-            apart[children] = best.0;
-            choices |= best.1 << (3 * (children - 2));
-        }
+        // Both parts shown, as at most 0, 1 … 8 children: what that costs, and how many the left one gets.
+        let apart: [(f64, u32); WIDTH + 1] = from_fn(|children| {
+            let cost = |k: usize| left.0[k - 1] + right.0[children - k - 1];
+            (1..children).fold((f64::INFINITY, 0), |best, k| if cost(k) < best.0 { (cost(k), k as u32) } else { best })
+        });
         let area = bounds.area_f64();
-        let as_node = area * NODE_COST + apart[WIDTH];
+        let as_node = area * NODE_COST + apart[WIDTH].0;
         let as_block = len.filter(|&len| len <= BLOCK).map_or(f64::INFINITY, |len| area * block(len));
-        let mut costs = [as_node; WIDTH - 1];
+        let mut choices = apart[WIDTH].1 << shift(WIDTH);
         if as_block <= as_node {
-            costs[0] = as_block;
             choices |= Choices::BLOCK;
         }
+        let mut costs = [as_node.min(as_block); WIDTH - 1];
         for children in 2..WIDTH {
-            costs[children - 1] = apart[children];
-            if costs[children - 2] <= apart[children] {
-                costs[children - 1] = costs[children - 2];
-                choices &= !(7 << (3 * (children - 2)));
+            let (cost, left) = apart[children];
+            costs[children - 1] = costs[children - 2];
+            if cost < costs[children - 2] {
+                costs[children - 1] = cost;
+                choices |= left << shift(children);
             }
         }
         (Self(costs), Choices(choices))
     }
+}
+
+/// Where the choice for at most `children` children lies.
+fn shift(children: usize) -> usize {
+    3 * (children - 2)
 }
 
 /// What a block costs a ray that enters its box.

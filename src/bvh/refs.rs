@@ -22,8 +22,9 @@ impl Ref {
     /// looked at by every ray, and no arithmetic of the builder gives NaN. −0 becomes +0, so that a minimum does not
     /// depend on the order in which it is taken.
     pub fn new(index: usize, bounds: Aabb, class: Class) -> Self {
-        let min = bounds.min.to_array().map(|v| v.max(f32::MIN).min(f32::MAX) + 0.0);
-        let max = bounds.max.to_array().map(|v| v.min(f32::MAX).max(f32::MIN) + 0.0);
+        let finite = |v: f32, nan: f32| if v.is_nan() { nan } else { v.clamp(f32::MIN, f32::MAX) + 0.0 };
+        let min = bounds.min.to_array().map(|v| finite(v, f32::MIN));
+        let max = bounds.max.to_array().map(|v| finite(v, f32::MAX));
         Self {
             min: Vec3::from(min).extend(f32::from_bits(index as u32 | NORMAL)),
             max: Vec3::from(max).extend(class as u8 as f32),
