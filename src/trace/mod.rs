@@ -26,15 +26,30 @@ pub(crate) use query::Nearest;
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
 /// rays of the batch, unless its own origin is NaN. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
-    let Some(bounds) = Bounds::of::<L>(rays) else { return };
-    let take = |at: usize, active, hit: &Nearest<L>| {
-        let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
-        L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
-    };
     match scene.plan.rare {
-        false => nearest_hits::<L, false>(scene, rays, &bounds, scratch, take),
-        true => nearest_hits::<L, true>(scene, rays, &bounds, scratch, take),
+        false => nearest_of::<L, false>(scene, rays, hits, scratch),
+        true => nearest_of::<L, true>(scene, rays, hits, scratch),
     }
+}
+
+fn nearest_of<L: Lanes, const RARE: bool>(
+    scene: &Scene,
+    rays: &RayBatch,
+    hits: &mut HitBatch,
+    scratch: &mut Candidates,
+) {
+    let Some(bounds) = Bounds::of::<L>(rays) else { return };
+    nearest_hits::<L, RARE>(
+        scene,
+        rays,
+        &bounds,
+        scratch,
+        #[inline(always)]
+        |at, active, hit| {
+            let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
+            L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
+        },
+    );
 }
 
 /// Whether anything lies in the interval of each active ray, in packets of `L::WIDTH`; a packet is left as soon as
@@ -42,12 +57,22 @@ pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, 
 ///
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
-    let Some(bounds) = Bounds::of::<L>(rays) else { return };
-    let take = |at, active: L::Mask, settled: L::Mask| blocked.set(at, active.bits(), settled.bits());
     match scene.plan.rare {
-        false => any_hits::<L, false>(scene, rays, &bounds, scratch, take),
-        true => any_hits::<L, true>(scene, rays, &bounds, scratch, take),
+        false => any_of::<L, false>(scene, rays, blocked, scratch),
+        true => any_of::<L, true>(scene, rays, blocked, scratch),
     }
+}
+
+fn any_of<L: Lanes, const RARE: bool>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
+    let Some(bounds) = Bounds::of::<L>(rays) else { return };
+    any_hits::<L, RARE>(
+        scene,
+        rays,
+        &bounds,
+        scratch,
+        #[inline(always)]
+        |at, active, settled| blocked.set(at, active.bits(), settled.bits()),
+    );
 }
 
 /// [`intersect()`] for rays whose bounds are known, `RARE` where the plan is (it may be without that); `take` gets every packet's answer while it is in registers.
