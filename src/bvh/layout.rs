@@ -27,11 +27,13 @@ struct Layout<'a, S> {
     /// A list a class.
     leaves: [Vec<Leaf>; 3],
     depth: usize,
+    /// The sums of the squares and the cubes of the blocks' largest extents, but for the largest blocks.
+    extents: [f64; 2],
 }
 
 /// The tree as it is traversed.
 pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
-    let mut layout = Layout { source, tree, nodes: Vec::new(), leaves: [const { Vec::new() }; 3], depth: 0 };
+    let mut layout = Layout { source, tree, nodes: Vec::new(), leaves: [const { Vec::new() }; 3], depth: 0, extents: [0.0; 2] };
     let root = layout.child(Place::default(), 1);
     let [triangles, spheres, others] = &layout.leaves;
     let indices = |leaf: &Leaf| {
@@ -48,6 +50,7 @@ pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
         root,
         bounds: tree.nodes[0].bounds,
         depth: layout.depth,
+        grain: (layout.extents[1] / layout.extents[0].max(f64::MIN_POSITIVE)) as f32,
         nodes: layout.nodes,
     }
 }
@@ -97,6 +100,13 @@ impl<S: Source> Layout<'_, S> {
 
     fn leaf(&mut self, place: Place, binary: &Binary) -> Child {
         let class = self.source.class(self.tree.order[place.first] as usize);
+        let bounds = binary.bounds;
+        let all = self.tree.nodes[0].bounds;
+        let extent = f64::from((bounds.max - bounds.min).max_element());
+        if extent * 8.0 <= f64::from((all.max - all.min).max_element()) {
+            self.extents[0] += extent * extent;
+            self.extents[1] += extent * extent * extent;
+        }
         let leaves = &mut self.leaves[class as usize];
         let at = leaves.len();
         leaves.push(Leaf { first: place.first as u32, len: binary.len });

@@ -41,7 +41,7 @@ pub const NODE_COST: f64 = 1.0;
 /// What it costs a ray to visit a block, however many primitives are in it: load, transform, a test of eight lanes.
 pub const BLOCK_COST: f64 = 2.0;
 /// What every primitive of a block adds: packets test those that a cull leaves one by one.
-pub const PRIMITIVE_COST: f64 = 0.25;
+pub const PRIMITIVE_COST: f64 = 0.1;
 
 /// What a primitive is to the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,10 +140,8 @@ pub const MOST_PRIMITIVES: usize = (1 << 30) - 1;
 #[repr(C, align(64))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// The boxes' least coordinates: component, child.
-    pub min: [[f32; WIDTH]; 3],
-    /// The boxes' greatest coordinates.
-    pub max: [[f32; WIDTH]; 3],
+    /// The boxes' least coordinates, then their greatest: component, child.
+    pub ends: [[[f32; WIDTH]; 3]; 2],
     /// The children.
     pub child: [Child; WIDTH],
 }
@@ -151,19 +149,20 @@ pub struct Node {
 impl Node {
     /// Without children.
     pub const EMPTY: Self =
-        Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3], child: [Child::EMPTY; WIDTH] };
+        Self { ends: [[[f32::INFINITY; WIDTH]; 3], [[f32::NEG_INFINITY; WIDTH]; 3]], child: [Child::EMPTY; WIDTH] };
 
     fn set(&mut self, lane: usize, bounds: Aabb, child: Child) {
         for axis in 0..3 {
-            self.min[axis][lane] = bounds.min[axis];
-            self.max[axis][lane] = bounds.max[axis];
+            self.ends[0][axis][lane] = bounds.min[axis];
+            self.ends[1][axis][lane] = bounds.max[axis];
         }
         self.child[lane] = child;
     }
 
     /// The box of a child.
     pub fn bounds(&self, lane: usize) -> Aabb {
-        Aabb { min: self.min.map(|c| c[lane]).into(), max: self.max.map(|c| c[lane]).into() }
+        let [min, max] = self.ends.map(|end| end.map(|c| c[lane]).into());
+        Aabb { min, max }
     }
 
     /// The number of used children.
@@ -192,6 +191,14 @@ pub struct TriangleBlock {
 impl TriangleBlock {
     /// Without triangles.
     pub const EMPTY: Self = Self { corners: [[[0.0; BLOCK]; 3]; 3], id: [NONE; BLOCK] };
+
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub fn triangle(&self, lane: usize) -> [Vec3; 3] {
+        let [a, b, c] = &self.corners;
+        let corner = |c: &[[f32; BLOCK]; 3]| Vec3::new(c[0][lane], c[1][lane], c[2][lane]);
+        [corner(a), corner(b), corner(c)]
+    }
 }
 
 /// Up to eight spheres side by side, in 160 bytes; ids ascend.
@@ -259,6 +266,9 @@ pub struct Bvh {
     pub bounds: Aabb,
     /// The most nodes on a way from the root to a block; at most [`MOST_DEPTH`].
     pub depth: usize,
+    /// How large blocks are: the mean of their largest extents, weighted by area, without those of an eighth of the whole
+    /// and more; 0 when there are no others.
+    pub grain: f32,
 }
 
 impl Bvh {
@@ -274,6 +284,7 @@ impl Bvh {
                 root: Child::EMPTY,
                 bounds: Aabb::EMPTY,
                 depth: 0,
+                grain: 0.0,
             };
         }
         layout::layout(source, &build::build(refs::collect(source), MOST_DEPTH))

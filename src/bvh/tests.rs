@@ -343,7 +343,7 @@ fn clusters_stay_apart() {
     let all = [-1000.0, 0.0, 1000.0].into_iter().flat_map(|at| cluster(at, &mut random));
     let bvh = Check::of(&boxes(all));
     let root = bvh.nodes[0];
-    assert!((0..root.len()).all(|lane| root.max[0][lane] - root.min[0][lane] < 10.0));
+    assert!((0..root.len()).all(|lane| root.ends[1][0][lane] - root.ends[0][0][lane] < 10.0));
 }
 
 #[test]

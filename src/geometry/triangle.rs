@@ -4,12 +4,12 @@
 //! Two methods:
 //!
 //! - [`watertight`]: the default. After Woop, Benthin, Wald, *Watertight Ray/Triangle Intersection*, JCGT 2 (2013),
-//!   §3: the corners are projected along the ray, each by itself and so alike for all triangles that share it, and the
-//!   sign of every edge function x y' − y x' is exact, since both products round the same way; so no ray slips
-//!   between triangles that share an edge or a corner. Three deviations: the projection is onto two axes across the
-//!   ray ([`Aim`]) instead of a shear along its largest component, which would differ among the rays of a packet; an edge
-//!   function of 0 is not computed again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within
-//!   what the corners lie at along the ray, which stays right edge-on and keeps t's sign right next to the plane.
+//!   §3: the corners are sheared along the ray's largest component, each by itself and so alike for all triangles that
+//!   share it, and the sign of every edge function x y' − y x' is exact, since both products round the same way; so no
+//!   ray slips between triangles that share an edge or a corner. Two deviations: an edge function of 0 is not computed
+//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within what the corners lie at along
+//!   the ray, which stays right edge-on and keeps t's sign right next to the plane. Where the ray is so close to edge-on, or
+//!   the triangle to a sliver, that this says little ([`plane`]), t is kept within the triangle's box.
 //! - [`moller_trumbore`] (*Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its determinants expanded along
 //!   the direction instead of the edges: with T = o − a, e1 = b − a, e2 = c − a and N = e1 × e2, det = d·N,
 //!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two
@@ -93,15 +93,17 @@ pub struct SeenTriangle<L> {
     pub sides: Sides,
 }
 
-/// A unit direction and two axes across it.
-///
-/// Duff et al., *Building an Orthonormal Basis, Revisited*, JCGT 6 (2017): within a few ε of perpendicular.
+/// A unit direction, its axis of the largest component and the shear that turns it into that axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Aim<L> {
+pub struct Aim<L: Lanes> {
     /// d.
     pub direction: Vec3<L>,
-    x: Vec3<L>,
-    y: Vec3<L>,
+    /// The axis of the largest component, if that is the same in all lanes; of equal ones the first.
+    pub major: Option<usize>,
+    /// The next two components after the largest, over it.
+    pub shear: [L; 2],
+    /// Where the largest is x, and where y.
+    on: [L::Mask; 2],
 }
 
 impl<L: Lanes> Aim<L> {
@@ -109,28 +111,36 @@ impl<L: Lanes> Aim<L> {
     #[inline(always)]
     pub fn new(direction: Vec3<L>) -> Self {
         let Vec3 { x, y, z } = direction;
-        let one = L::splat(1.0);
-        let sign = (-one).select(z.lt(L::zero()), one);
-        let a = -one / (sign + z);
-        let b = x * y * a;
-        Self {
-            direction,
-            x: Vec3::new((sign * x * x).mul_add(a, one), sign * b, -(sign * x)),
-            y: Vec3::new(b, (y * y).mul_add(a, sign), -y),
-        }
+        let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
+        let on_x = ax.ge(ay) & ax.ge(az);
+        let on_y = !on_x & ay.ge(az);
+        let on = [on_x, on_y];
+        let [p, q, r] = in_order(direction, on);
+        let major = match () {
+            _ if on_x.all() => Some(0),
+            _ if on_y.all() => Some(1),
+            _ if !(on_x | on_y).any() => Some(2),
+            _ => None,
+        };
+        Self { direction, major, shear: [p / r, q / r], on }
     }
+}
 
-    /// From a direction and its [`Aim::across`].
+impl Aim<f32> {
+    /// The axis of a direction's largest component; of equal ones the first.
     #[inline(always)]
-    pub fn of(direction: Vec3<L>, [x, y]: [Vec3<L>; 2]) -> Self {
-        Self { direction, x, y }
+    pub fn major_of(direction: Vec3<f32>) -> usize {
+        let (x, y, z) = (direction.x.abs(), direction.y.abs(), direction.z.abs());
+        if x >= y && x >= z { 0 } else { 2 - usize::from(y >= z) }
     }
+}
 
-    /// The axes across the direction.
-    #[inline(always)]
-    pub fn across(&self) -> [Vec3<L>; 2] {
-        [self.x, self.y]
-    }
+/// The components after the largest, and that.
+#[inline(always)]
+fn in_order<L: Lanes>(v: Vec3<L>, [on_x, on_y]: [L::Mask; 2]) -> [L; 3] {
+    let Vec3 { x, y, z } = v;
+    let pick = |first: L, second: L, third: L| first.select(on_x, second.select(on_y, third));
+    [pick(y, z, x), pick(z, x, y), pick(x, y, z)]
 }
 
 impl<L: Lanes> From<Vec3<L>> for Aim<L> {
@@ -262,9 +272,9 @@ impl Primitives for Triangles {
 /// With E that product, N is off by 6 ε E, a·N by 10 ε |a| E and t by 24 ε (|a| + longest edge) E / N·d, below 374 ε D
 /// times the largest components' product over N·d.
 #[inline(always)]
-pub fn plane([a, b, c]: [Vec3<f32>; 3]) -> (Vec3<f32>, f32) {
+pub fn plane<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> (Vec3<L>, L) {
     let (e1, e2) = (b - a, c - a);
-    (e1.cross(e2), e1.max_abs() * e2.max_abs() * 0.03125)
+    (e1.cross(e2), e1.max_abs() * e2.max_abs() * L::splat(0.03125))
 }
 
 /// How far before a triangle's box a ray may hit it, in distances of its farthest corner along any axis.
@@ -274,16 +284,27 @@ pub const SLACK: f32 = 1.0 / (1 << 10) as f32;
 #[inline(always)]
 pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
     let inside = covers(&seen.corners, aim)?;
-    let (t, inside) = distance(&seen.corners, (seen.n, seen.height, seen.steep), aim.direction, inside);
+    let (t, inside) = distance(&seen.corners, (seen.n, seen.height, L::splat(seen.steep)), aim.direction, inside);
     let inside = inside & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
 
 /// The first half of [`watertight`]: where the rays' lines pass through a triangle; `None` when none does.
 #[inline(always)]
-pub fn covers<L: Lanes>([a, b, c]: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask> {
-    let [ax, bx, cx] = [a.dot(aim.x), b.dot(aim.x), c.dot(aim.x)];
-    let [ay, by, cy] = [a.dot(aim.y), b.dot(aim.y), c.dot(aim.y)];
+pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask> {
+    let ordered = match aim.major {
+        Some(0) => corners.map(|c| [c.y, c.z, c.x]),
+        Some(1) => corners.map(|c| [c.z, c.x, c.y]),
+        Some(_) => corners.map(|c| [c.x, c.y, c.z]),
+        None => corners.map(|c| in_order(c, aim.on)),
+    };
+    covers_ordered(&ordered, aim.shear)
+}
+
+/// The same for corners whose components come in the order of those after the directions' largest, and that.
+#[inline(always)]
+pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Option<L::Mask> {
+    let [[ax, ay], [bx, by], [cx, cy]] = corners.map(|[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
     // Not fused: a product that is not rounded would be compared with one that is.
     let (u, v, w) = (cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
@@ -295,7 +316,7 @@ pub fn covers<L: Lanes>([a, b, c]: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mas
 #[inline(always)]
 pub fn distance<L: Lanes>(
     corners: &[Vec3<L>; 3],
-    (n, height, steep): (Vec3<L>, L, f32),
+    (n, height, steep): (Vec3<L>, L, L),
     direction: Vec3<L>,
     inside: L::Mask,
 ) -> (L, L::Mask) {
@@ -303,7 +324,7 @@ pub fn distance<L: Lanes>(
     let along = n.dot(direction);
     let t = (height / along).max(az.min(bz).min(cz)).min(az.max(bz).max(cz));
     let inside = inside & !along.eq(L::zero());
-    let shallow = inside & along.abs().lt(L::splat(steep));
+    let shallow = inside & along.abs().lt(steep);
     let t = if shallow.any() { in_box(corners, direction, t).select(shallow, t) } else { t };
     (t, inside)
 }

@@ -76,6 +76,16 @@ impl<L: Lanes> Vec3<L> {
         self * (L::splat(1.0) / self.dot(self).sqrt())
     }
 
+    /// The two components after component `major`, and that.
+    #[inline(always)]
+    pub fn ordered(self, major: usize) -> [L; 3] {
+        match major {
+            0 => [self.y, self.z, self.x],
+            1 => [self.z, self.x, self.y],
+            _ => [self.x, self.y, self.z],
+        }
+    }
+
     /// The largest magnitude among the components.
     #[inline(always)]
     pub fn max_abs(self) -> L {

@@ -172,7 +172,7 @@ impl Lighting {
         any_hits::<L, RICH>(
             scene,
             rays,
-            bounds,
+            || Some(*bounds),
             scratch,
             #[inline(always)]
             |at, active, settled| {

@@ -164,14 +164,13 @@ impl Stage<'_> {
     /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
     #[inline(always)]
     fn arrive<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32) -> bool {
-        let Some(bounds) = Bounds::of::<L>(&wave.rays) else { return false };
         let Self { scene, radiance, surfaces, candidates, .. } = self;
         let mut any = false;
         surfaces.start(wave.rays.len);
         nearest_hits::<L, RICH>(
             scene,
             &wave.rays,
-            &bounds,
+            || Bounds::of::<L>(&wave.rays),
             candidates,
             #[inline(always)]
             |at, active, hit| {

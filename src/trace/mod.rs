@@ -38,11 +38,10 @@ fn nearest_of<L: Lanes, const RARE: bool>(
     hits: &mut HitBatch,
     scratch: &mut Candidates,
 ) {
-    let Some(bounds) = Bounds::of::<L>(rays) else { return };
     nearest_hits::<L, RARE>(
         scene,
         rays,
-        &bounds,
+        || Bounds::of::<L>(rays),
         scratch,
         #[inline(always)]
         |at, active, hit| {
@@ -64,11 +63,10 @@ pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked,
 }
 
 fn any_of<L: Lanes, const RARE: bool>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
-    let Some(bounds) = Bounds::of::<L>(rays) else { return };
     any_hits::<L, RARE>(
         scene,
         rays,
-        &bounds,
+        || Bounds::of::<L>(rays),
         scratch,
         #[inline(always)]
         |at, active, settled| blocked.set(at, active.bits(), settled.bits()),
@@ -80,14 +78,15 @@ fn any_of<L: Lanes, const RARE: bool>(scene: &Scene, rays: &RayBatch, blocked: &
 pub(crate) fn nearest_hits<L: Lanes, const RARE: bool>(
     scene: &Scene,
     rays: &RayBatch,
-    bounds: &Bounds,
+    bounds: impl FnOnce() -> Option<Bounds>,
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
     if let Some(bvh) = &scene.bvh {
         return tree::nearest::<L, RARE>(scene, bvh, rays, bounds, scratch.tree(), take);
     }
-    match scratch.gather::<L>(scene, bounds) {
+    let Some(bounds) = bounds() else { return };
+    match scratch.gather::<L>(scene, &bounds) {
         View::Shared(candidates) => packets::nearest::<_, L, RARE>(scene, candidates, rays, take),
         View::Apart(candidates) => packets::nearest::<_, L, RARE>(scene, candidates, rays, take),
     }
@@ -98,14 +97,15 @@ pub(crate) fn nearest_hits<L: Lanes, const RARE: bool>(
 pub(crate) fn any_hits<L: Lanes, const RARE: bool>(
     scene: &Scene,
     rays: &RayBatch,
-    bounds: &Bounds,
+    bounds: impl FnOnce() -> Option<Bounds>,
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
     if let Some(bvh) = &scene.bvh {
         return tree::any::<L, RARE>(scene, bvh, rays, bounds, scratch.tree(), take);
     }
-    match scratch.gather::<L>(scene, bounds) {
+    let Some(bounds) = bounds() else { return };
+    match scratch.gather::<L>(scene, &bounds) {
         View::Shared(candidates) => packets::any::<_, L, RARE>(scene, candidates, rays, take),
         View::Apart(candidates) => packets::any::<_, L, RARE>(scene, candidates, rays, take),
     }

@@ -14,51 +14,43 @@
 //! at most [`SLACK`] (D + |o|) ([`crate::geometry::triangle`] sees to that), so a box is left out only when it is that
 //! much farther than what was hit.
 
-use crate::bvh::{Bvh, Node};
-use crate::geometry::triangle::SLACK;
+use crate::bvh::Bvh;
+pub use crate::geometry::triangle::SLACK;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 use std::ops::Range;
 use wide::f32x8;
 
-use super::super::bounds::{Bounds, Extent};
+use super::super::bounds::Extent;
 use super::State;
 
 /// 64 ε.
-const PAD: f32 = 1.0 / (1 << 18) as f32;
+pub const PAD: f32 = 1.0 / (1 << 18) as f32;
 /// A direction's component below this counts as both above and below zero: its inverse times any distance is beyond
 /// all others.
-const TINY: f32 = 1e-18;
+pub const TINY: f32 = 1e-18;
 
 /// Bounds of the active rays of a group, or a single ray.
 pub struct Beam {
-    /// Per axis: 1 / d.max, and what `low` times that is lessened by.
-    low: [(f32x8, f32x8); 3],
-    /// The same of 1 / d.min and `high`.
-    high: [(f32x8, f32x8); 3],
-    sign: [Sign; 3],
-    /// Whether any axis has rays of both directions.
-    mixed: bool,
+    /// Per axis: the inverse that the faces where rays enter are multiplied by, and what is taken from that.
+    near: [(f32x8, f32x8); 3],
+    /// The same for where they leave; for an axis with rays of both directions, where the others enter.
+    far: [(f32x8, f32x8); 3],
+    /// Which end of a box is the near one: 0 for `min`.
+    side: [usize; 3],
+    /// Axes with rays of both directions.
+    both: [bool; 3],
+    /// Whether there is any such axis.
+    pub mixed: bool,
+    /// The axis of the directions' largest component, where the bounds tell.
+    pub major: Option<usize>,
     /// SLACK (D + |o|).
     pub slack: f32,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Sign {
-    Plus,
-    Minus,
-    Both,
-}
-
 impl Beam {
-    /// Around the rays of a range that are not done, and whether they run together; `None` when all are done.
+    /// The least and greatest origins and directions of the rays of a range that are not done, if there are any.
     #[inline(always)]
-    pub fn around(
-        rays: &RayBatch,
-        state: &State,
-        range: Range<usize>,
-        bvh: &Bvh,
-        bounds: &Bounds,
-    ) -> Option<(Self, bool)> {
+    pub fn ends(rays: &RayBatch, state: &State, range: Range<usize>) -> Option<[[glam::Vec3; 2]; 2]> {
         let (mut origins, mut directions) = (Extent::<f32x8>::empty(), Extent::<f32x8>::empty());
         let mut any = false;
         for at in range.step_by(8) {
@@ -68,7 +60,7 @@ impl Beam {
             }
             any = true;
             directions.include(Vec3::load(&rays.direction, at), active);
-            if !bounds.shared {
+            if !rays.common_origin {
                 origins.include(Vec3::load(&rays.origin, at), active);
             }
         }
@@ -76,13 +68,8 @@ impl Beam {
             return None;
         }
         let directions = directions.ends();
-        let origins = if bounds.shared { [bounds.origin.middle.into(); 2] } else { origins.ends() };
-        let spread = (directions[1] - directions[0]).max_element();
-        let apart = (origins[1] - origins[0]).max_element();
-        let size = (bvh.bounds.max - bvh.bounds.min).max_element();
-        // NaN and infinity fail these.
-        let coherent = spread < super::SPREAD && apart < super::APART * size;
-        Some((Self::new(origins, directions, bvh), coherent))
+        let origins = if rays.common_origin { [rays.first_origin(); 2] } else { origins.ends() };
+        Some([origins, directions])
     }
 
     /// From the least and greatest origins and directions.
@@ -91,62 +78,67 @@ impl Beam {
         let reach = (bvh.bounds.max - o_min).max(o_max - bvh.bounds.min).max_element().max(0.0);
         let reach = reach + o_min.abs().max(o_max.abs()).max_element();
         let pad = PAD * reach;
+        let zero = (f32x8::ZERO, f32x8::ZERO);
         let mut beam = Self {
-            low: [(f32x8::ZERO, f32x8::ZERO); 3],
-            high: [(f32x8::ZERO, f32x8::ZERO); 3],
-            sign: [Sign::Both; 3],
+            near: [zero; 3],
+            far: [zero; 3],
+            side: [0; 3],
+            both: [false; 3],
             mixed: false,
+            major: major(d_min, d_max),
             slack: SLACK * reach,
         };
         for axis in 0..3 {
             let (least, most) = (d_min[axis], d_max[axis]);
-            let (r, q) = if least >= TINY {
-                beam.sign[axis] = Sign::Plus;
-                (1.0 / most, 1.0 / least)
-            } else if most <= -TINY {
-                beam.sign[axis] = Sign::Minus;
-                (1.0 / most, 1.0 / least)
-            } else {
-                beam.mixed = true;
-                (1.0 / most.max(TINY), 1.0 / least.min(-TINY))
+            let both = !(least >= TINY || most <= -TINY);
+            let (r, q) = match both {
+                false => (1.0 / most, 1.0 / least),
+                true => (1.0 / most.max(TINY), 1.0 / least.min(-TINY)),
             };
-            beam.low[axis] = (f32x8::splat(r), f32x8::splat((o_max[axis] + pad) * r));
-            beam.high[axis] = (f32x8::splat(q), f32x8::splat((o_min[axis] - pad) * q));
+            let low = (f32x8::splat(r), f32x8::splat((o_max[axis] + pad) * r));
+            let high = (f32x8::splat(q), f32x8::splat((o_min[axis] - pad) * q));
+            let behind = most <= -TINY;
+            (beam.near[axis], beam.far[axis]) = if behind { (high, low) } else { (low, high) };
+            beam.side[axis] = usize::from(behind);
+            beam.both[axis] = both;
+            beam.mixed |= both;
         }
         beam
     }
 
-    /// Eight boxes' entries, not below zero, and where they are met before `end`.
+    /// Eight boxes' entries, not below zero, and where they are met before `end`. `ends` are the boxes' least and
+    /// greatest coordinates; `MIXED` may be false where [`Beam::mixed`] is.
     #[inline(always)]
-    pub fn meets(&self, min: &[[f32; 8]; 3], max: &[[f32; 8]; 3], end: f32x8) -> (f32x8, u32) {
+    pub fn meets<const MIXED: bool>(&self, ends: &[[[f32; 8]; 3]; 2], end: f32x8) -> (f32x8, u32) {
         let mut enter = f32x8::ZERO;
         let mut exit = end;
         for axis in 0..3 {
-            let (r, a) = self.low[axis];
-            let (q, b) = self.high[axis];
-            let u = f32x8::from(min[axis]).mul_sub(r, a);
-            let v = f32x8::from(max[axis]).mul_sub(q, b);
+            let (r, a) = self.near[axis];
+            let (q, b) = self.far[axis];
+            let side = self.side[axis] & 1;
             // What is NaN (∞ − ∞) is passed over.
-            match self.sign[axis] {
-                Sign::Plus => {
-                    enter = Lanes::max(u, enter);
-                    exit = Lanes::min(v, exit);
-                }
-                Sign::Minus => {
-                    enter = Lanes::max(v, enter);
-                    exit = Lanes::min(u, exit);
-                }
-                Sign::Both => {
-                    enter = Lanes::max(v, Lanes::max(u, enter));
-                }
+            enter = Lanes::max(f32x8::from(ends[side][axis]).mul_sub(r, a), enter);
+            let other = f32x8::from(ends[side ^ 1][axis]).mul_sub(q, b);
+            if MIXED && self.both[axis] {
+                enter = Lanes::max(other, enter);
+            } else {
+                exit = Lanes::min(other, exit);
             }
         }
         (enter, LaneMask::bits(Lanes::le(enter, exit)))
     }
+}
 
-    /// The children of a node that are met before `end`.
-    #[inline(always)]
-    pub fn children(&self, node: &Node, end: f32x8) -> (f32x8, u32) {
-        self.meets(&node.min, &node.max, end)
+/// The axis along which all directions between these are larger than along the others, as
+/// [`crate::geometry::triangle::Aim`] has it.
+#[inline(always)]
+fn major(min: glam::Vec3, max: glam::Vec3) -> Option<usize> {
+    let least = min.max(-max).max(glam::Vec3::ZERO);
+    let most = max.max(-min);
+    match () {
+        _ if least.x >= most.y && least.x >= most.z => Some(0),
+        _ if least.y > most.x && least.y >= most.z => Some(1),
+        _ if least.z > most.x && least.z > most.y => Some(2),
+        _ => None,
     }
 }

@@ -10,27 +10,41 @@ use super::beam::Beam;
 
 impl Walk<'_> {
     /// Traces the rays of a range, which all are in the beam.
-    #[inline(never)]
+    #[inline(always)]
     pub fn group<L: Lanes, const ANY: bool, const RARE: bool>(&mut self, beam: &Beam, range: Range<usize>) {
+        match beam.mixed {
+            false => self.descend::<L, ANY, RARE, false>(beam, range),
+            true => self.descend::<L, ANY, RARE, true>(beam, range),
+        }
+    }
+
+    #[inline(never)]
+    fn descend<L: Lanes, const ANY: bool, const RARE: bool, const MIXED: bool>(
+        &mut self,
+        beam: &Beam,
+        range: Range<usize>,
+    ) {
         let bvh = self.bvh;
         let end = |walk: &Self| walk.state.furthest::<L>(range.clone()) + beam.slack;
         let mut limit = end(self);
-        self.state.stack.start(bvh.root);
-        while let Some((enter, child)) = self.state.stack.pop() {
-            if enter > limit {
-                // The others lie no nearer than this one, but for those of nodes further up.
-                continue;
-            }
+        self.state.stack.clear();
+        let mut child = bvh.root;
+        loop {
             let i = child.index();
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[i];
-                    let (enter, met) = beam.children(node, f32x8::splat(limit));
-                    self.state.stack.push(node, &enter.to_array(), met);
-                    continue;
+                    let (enter, met) = beam.meets::<MIXED>(&node.ends, f32x8::splat(limit));
+                    if met != 0 {
+                        child = self.state.stack.nearest(node, &enter.to_array(), met).child();
+                        continue;
+                    }
+                    false
                 }
-                Kind::Triangles => self.triangles::<L, ANY, RARE>(&bvh.triangles[i], beam, limit, range.clone()),
-                Kind::Spheres => self.spheres::<L, ANY, RARE>(&bvh.spheres[i], beam, limit, range.clone()),
+                Kind::Triangles => {
+                    self.triangles::<L, ANY, RARE, MIXED>(&bvh.triangles[i], beam, limit, range.clone())
+                }
+                Kind::Spheres => self.spheres::<L, ANY, RARE, MIXED>(&bvh.spheres[i], beam, limit, range.clone()),
                 Kind::Others => self.others::<L, ANY>(i, range.clone()),
             };
             if closer {
@@ -38,6 +52,10 @@ impl Walk<'_> {
                 if limit < 0.0 {
                     return;
                 }
+            }
+            match self.state.stack.pop(limit) {
+                Some(next) => child = next.child(),
+                None => return,
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The primitives of a block against the packets of a group.
 
 use crate::bvh::{SphereBlock, TriangleBlock};
-use crate::geometry::triangle::{covers, distance, plane};
+use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, plane};
 use crate::geometry::{Primitives, Sides, SphereRecord, Spheres};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use crate::scene::with_primitive;
@@ -16,7 +16,7 @@ use super::beam::Beam;
 impl Walk<'_> {
     /// The triangles of a block whose boxes the beam meets, one by one; whether any hit was taken.
     #[inline(always)]
-    pub fn triangles<L: Lanes, const ANY: bool, const RARE: bool>(
+    pub fn triangles<L: Lanes, const ANY: bool, const RARE: bool, const MIXED: bool>(
         &mut self,
         block: &TriangleBlock,
         beam: &Beam,
@@ -28,8 +28,8 @@ impl Walk<'_> {
             |axis: usize| Lanes::min(f32x8::from(a[axis]), Lanes::min(f32x8::from(b[axis]), f32x8::from(c[axis])));
         let most =
             |axis: usize| Lanes::max(f32x8::from(a[axis]), Lanes::max(f32x8::from(b[axis]), f32x8::from(c[axis])));
-        let [min, max] = [[least(0), least(1), least(2)], [most(0), most(1), most(2)]].map(|v| v.map(f32x8::to_array));
-        let (_, mut met) = beam.meets(&min, &max, f32x8::splat(limit));
+        let ends = [[least(0), least(1), least(2)], [most(0), most(1), most(2)]].map(|v| v.map(f32x8::to_array));
+        let (_, mut met) = beam.meets::<MIXED>(&ends, f32x8::splat(limit));
         let mut taken = false;
         while met != 0 {
             let lane = met.trailing_zeros() as usize & 7;
@@ -38,13 +38,25 @@ impl Walk<'_> {
             if id == NONE {
                 break;
             }
-            let corners = block.corners.map(|c| glam::Vec3::new(c[0][lane], c[1][lane], c[2][lane]));
+            let corners = block.triangle(lane);
             for at in range.clone().step_by(L::WIDTH) {
                 let origin = self.rays.origins::<L>(at);
-                let aim = self.state.aim::<L>(self.rays, at);
-                let seen = corners.map(|c| Vec3::splat(c) - origin);
-                let Some(inside) = covers(&seen, &aim) else { continue };
-                taken |= self.triangle::<L, ANY, RARE>(at, corners, &seen, inside, id);
+                let inside = match beam.major {
+                    Some(major) => {
+                        let origin = origin.ordered(major);
+                        let corner = |k: usize| -> [L; 3] {
+                            let axis = |i: usize| L::splat(block.corners[k][(major + 1 + i) % 3][lane]) - origin[i];
+                            [axis(0), axis(1), axis(2)]
+                        };
+                        covers_ordered(&[corner(0), corner(1), corner(2)], self.state.shear(at))
+                    }
+                    None => {
+                        let aim = Aim::new(Vec3::load(&self.rays.direction, at));
+                        covers(&corners.map(|c| Vec3::splat(c) - origin), &aim)
+                    }
+                };
+                let Some(inside) = inside else { continue };
+                taken |= self.triangle::<L, ANY, RARE>(at, corners, inside, id);
             }
         }
         taken
@@ -56,14 +68,15 @@ impl Walk<'_> {
         &mut self,
         at: usize,
         corners: [glam::Vec3; 3],
-        seen: &[Vec3<L>; 3],
         inside: L::Mask,
         id: u32,
     ) -> bool {
         let direction = Vec3::load(&self.rays.direction, at);
+        let origin = self.rays.origins::<L>(at);
+        let seen = corners.map(|c| Vec3::splat(c) - origin);
         let (n, steep) = plane(corners.map(Vec3::<f32>::from));
         let n = Vec3::splat(n.into());
-        let (t, mut inside) = distance(seen, (n, seen[0].dot(n), steep), direction, inside);
+        let (t, mut inside) = distance(&seen, (n, seen[0].dot(n), L::splat(steep)), direction, inside);
         if RARE {
             inside = inside
                 & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], n.dot(direction));
@@ -74,7 +87,7 @@ impl Walk<'_> {
 
     /// The same for spheres.
     #[inline(always)]
-    pub fn spheres<L: Lanes, const ANY: bool, const RARE: bool>(
+    pub fn spheres<L: Lanes, const ANY: bool, const RARE: bool, const MIXED: bool>(
         &mut self,
         block: &SphereBlock,
         beam: &Beam,
@@ -83,9 +96,8 @@ impl Walk<'_> {
     ) -> bool {
         let radius = f32x8::from(block.radius);
         let [x, y, z] = block.center.map(f32x8::from);
-        let [min, max] = [[x - radius, y - radius, z - radius], [x + radius, y + radius, z + radius]]
-            .map(|v| v.map(f32x8::to_array));
-        let (_, mut met) = beam.meets(&min, &max, f32x8::splat(limit));
+        let ends = [[x - radius, y - radius, z - radius], [x + radius, y + radius, z + radius]];
+        let (_, mut met) = beam.meets::<MIXED>(&ends.map(|v| v.map(f32x8::to_array)), f32x8::splat(limit));
         let mut taken = false;
         while met != 0 {
             let lane = met.trailing_zeros() as usize & 7;

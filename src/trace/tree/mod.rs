@@ -8,6 +8,7 @@
 mod beam;
 mod group;
 mod leaf;
+mod line;
 mod single;
 mod stack;
 mod state;
@@ -21,13 +22,20 @@ use crate::geometry::{Planes, Primitives};
 use crate::math::{LaneMask, Lanes, NONE, RayBatch, Vec3};
 use crate::scene::Scene;
 use beam::Beam;
+use std::ops::Range;
 
 /// Rays a group.
 pub const GROUP: usize = 16;
+/// Rays that are tried together first.
+pub const LARGE: usize = 64;
 /// How far apart the directions of a group may be along any axis for its rays to run together.
-const SPREAD: f32 = 0.3;
-/// How far apart its origins may be, in sizes of the scene.
-const APART: f32 = 0.1;
+const SPREAD: f32 = 0.5;
+const LFAR: f32 = 1.5;
+const LNEAR: f32 = 1.0;
+const SFAR: f32 = 30.0;
+const SNEAR: f32 = 1.5;
+/// How far apart its origins may be, in sizes of the tree's blocks.
+const APART: f32 = 4.0;
 
 /// What a traversal works on; `RARE` and `ANY` as everywhere.
 struct Walk<'a> {
@@ -43,7 +51,7 @@ pub fn nearest<L: Lanes, const RARE: bool>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
-    bounds: &Bounds,
+    bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
@@ -63,7 +71,7 @@ pub fn any<L: Lanes, const RARE: bool>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
-    bounds: &Bounds,
+    bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
     mut take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
@@ -82,26 +90,50 @@ fn answer<L: Lanes, const ANY: bool, const RARE: bool>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
-    bounds: &Bounds,
+    bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
 ) {
     state.start::<L>(rays, !bvh.triangles.is_empty());
     let mut walk = Walk { scene, bvh, rays, state };
-    walk.planes::<L, ANY>(bounds);
-    for first in (0..rays.len).step_by(GROUP) {
-        let range = first..(first + GROUP).min(rays.len.next_multiple_of(L::WIDTH));
-        let Some((beam, coherent)) = Beam::around(rays, walk.state, range.clone(), bvh, bounds) else { continue };
-        if coherent {
-            walk.group::<L, ANY, RARE>(&beam, range);
-        } else {
-            for i in range {
-                walk.single::<ANY, RARE>(i);
+    if !scene.planes.is_empty() {
+        let Some(bounds) = bounds() else { return };
+        walk.planes::<L, ANY>(&bounds);
+    }
+    let end = rays.len.next_multiple_of(L::WIDTH);
+    for first in (0..end).step_by(LARGE) {
+        let large = first..(first + LARGE).min(end);
+        if walk.together::<L, ANY, RARE>(large.clone()) {
+            continue;
+        }
+        for first in large.clone().step_by(GROUP) {
+            let range = first..(first + GROUP).min(end);
+            if !walk.together::<L, ANY, RARE>(range.clone()) {
+                walk.state.lines.prepare(rays, bvh, range.clone());
+                for i in range {
+                    walk.single::<ANY, RARE>(i);
+                }
             }
         }
     }
 }
 
 impl Walk<'_> {
+    /// Traces the rays of a range as a group if that is faster than one by one.
+    #[inline(always)]
+    fn together<L: Lanes, const ANY: bool, const RARE: bool>(&mut self, range: Range<usize>) -> bool {
+        let Some([origins, directions]) = Beam::ends(self.rays, self.state, range.clone()) else { return true };
+        let spread = (directions[1] - directions[0]).max_element();
+        let apart = (origins[1] - origins[0]).max_element();
+        let size = (self.bvh.bounds.max - self.bvh.bounds.min).max_element();
+        let (far, near) = if range.len() > GROUP { (LFAR, LNEAR) } else { (SFAR, SNEAR) };
+        // NaN fails these.
+        let together = spread < 0.5 && spread * size < far * self.bvh.grain && apart <= near * self.bvh.grain;
+        if together {
+            self.group::<L, ANY, RARE>(&Beam::new(origins, directions, self.bvh), range);
+        }
+        together
+    }
+
     /// What no box holds: the planes.
     fn planes<L: Lanes, const ANY: bool>(&mut self, bounds: &Bounds) {
         let planes = &self.scene.planes;

@@ -1,116 +1,140 @@
 //! One ray against eight boxes, triangles or spheres at a time.
 
 use crate::bvh::{Kind, SphereBlock, TriangleBlock};
-use crate::geometry::triangle::{Aim, covers};
-use crate::geometry::{Primitives, Sides, sphere};
-use crate::math::{LaneMask, NONE, Vec3};
+use crate::geometry::triangle::{Aim, covers_ordered, distance, plane};
+use crate::geometry::{Primitives, Sides, Spheres, sphere};
+use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use wide::f32x8;
 
 use super::Walk;
-use super::beam::Beam;
+use super::line::Line;
+
+/// Ray `i` of the batch in every lane.
+struct Ray {
+    i: usize,
+    origin: Vec3<f32x8>,
+    direction: Vec3<f32x8>,
+    t_min: f32x8,
+    major: usize,
+    shear: [f32x8; 2],
+}
 
 impl Walk<'_> {
-    /// Traces ray `i`, unless it is done.
+    /// Traces ray `i`, unless it is done; its [`Line`] is known.
     #[inline(never)]
     pub fn single<const ANY: bool, const RARE: bool>(&mut self, i: usize) {
         if self.state.t[i].is_nan() || self.state.t[i] < 0.0 {
             return;
         }
         let bvh = self.bvh;
-        let origin: glam::Vec3 = self.rays.origins::<f32>(i).into();
-        let direction: glam::Vec3 = Vec3::<f32>::load(&self.rays.direction, i).into();
-        let beam = Beam::new([origin; 2], [direction; 2], bvh);
-        let (from, to) = (Vec3::<f32x8>::splat(origin), Vec3::<f32x8>::splat(direction));
-        let across = self.state.aim::<f32>(self.rays, i).across().map(|v| Vec3::splat(v.into()));
-        let aim = Aim::of(to, across);
-        let mut limit = self.state.t[i] + beam.slack;
-        self.state.stack.start(bvh.root);
-        while let Some((enter, child)) = self.state.stack.pop() {
-            if enter > limit {
-                continue;
-            }
+        let direction = Vec3::<f32>::load(&self.rays.direction, i);
+        let line = Line::new(self.state, direction, i);
+        let ray = Ray {
+            i,
+            origin: Vec3::splat(self.rays.origins::<f32>(i).into()),
+            direction: Vec3::splat(direction.into()),
+            t_min: f32x8::splat(self.rays.t_min[i]),
+            major: Aim::major_of(direction),
+            shear: self.state.shear::<f32>(i).map(f32x8::splat),
+        };
+        let mut limit = self.state.t[i] + line.slack;
+        self.state.stack.clear();
+        let mut child = bvh.root;
+        loop {
             let at = child.index();
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[at];
-                    let (enter, met) = beam.children(node, f32x8::splat(limit));
-                    self.state.stack.push(node, &enter.to_array(), met);
-                    continue;
+                    let (enter, met) = line.meets(&node.ends, f32x8::splat(limit));
+                    if met != 0 {
+                        child = self.state.stack.nearest(node, &enter.to_array(), met).child();
+                        continue;
+                    }
+                    false
                 }
-                Kind::Triangles => self.eight_triangles::<ANY, RARE>(i, &bvh.triangles[at], from, &aim),
-                Kind::Spheres => self.eight_spheres::<ANY, RARE>(i, &bvh.spheres[at], from, to),
+                Kind::Triangles => self.eight_triangles::<ANY, RARE>(&ray, &bvh.triangles[at]),
+                Kind::Spheres => self.eight_spheres::<ANY, RARE>(&ray, &bvh.spheres[at]),
                 Kind::Others => self.others::<f32, ANY>(at, i..i + 1),
             };
             if closer {
-                limit = self.state.t[i] + beam.slack;
+                limit = self.state.t[i] + line.slack;
                 if limit < 0.0 {
                     return;
                 }
             }
-        }
-    }
-
-    #[inline(always)]
-    fn eight_triangles<const ANY: bool, const RARE: bool>(
-        &mut self,
-        i: usize,
-        block: &TriangleBlock,
-        from: Vec3<f32x8>,
-        aim: &Aim<f32x8>,
-    ) -> bool {
-        let seen = block.corners.map(|c| Vec3::load(&c, 0) - from);
-        let Some(inside) = covers(&seen, aim) else { return false };
-        let mut taken = false;
-        let mut bits = inside.bits();
-        while bits != 0 {
-            let lane = bits.trailing_zeros() as usize & 7;
-            bits &= bits - 1;
-            let id = block.id[lane];
-            if id == NONE {
-                break;
+            match self.state.stack.pop(limit) {
+                Some(next) => child = next.child(),
+                None => return,
             }
-            let corners = block.corners.map(|c| glam::Vec3::new(c[0][lane], c[1][lane], c[2][lane]));
-            let origin = self.rays.origins::<f32>(i);
-            let seen = corners.map(|c| Vec3::<f32>::from(c) - origin);
-            taken |= self.triangle::<f32, ANY, RARE>(i, corners, &seen, true, id);
         }
-        taken
     }
 
     #[inline(always)]
-    fn eight_spheres<const ANY: bool, const RARE: bool>(
-        &mut self,
-        i: usize,
-        block: &SphereBlock,
-        from: Vec3<f32x8>,
-        to: Vec3<f32x8>,
-    ) -> bool {
-        let seen = sphere::SeenSphere::new(Vec3::load(&block.center, 0), f32x8::from(block.radius), Sides::Both, from);
+    fn eight_triangles<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, block: &TriangleBlock) -> bool {
+        let from = ray.origin.ordered(ray.major);
+        let corner = |k: usize| -> [f32x8; 3] {
+            let axis = |i: usize| f32x8::from(block.corners[k][(ray.major + 1 + i) % 3]) - from[i];
+            [axis(0), axis(1), axis(2)]
+        };
+        let Some(inside) = covers_ordered(&[corner(0), corner(1), corner(2)], ray.shear) else { return false };
         if RARE {
-            // Each may have another side: they are tested one by one where a ray passes through any.
-            let any = sphere::passes(&seen, to);
-            return any && self.each_sphere::<ANY>(i, block);
+            return self.each_triangle::<ANY>(ray.i, block, inside.bits());
         }
-        let (t_min, far) = (f32x8::splat(self.rays.t_min[i]), f32x8::splat(f32::INFINITY));
-        let Some((t, inside)) = sphere::stable(&seen, to, t_min, far) else { return false };
+        let corners = [0, 1, 2].map(|k| Vec3::load(&block.corners[k], 0));
+        let seen = corners.map(|c| c - ray.origin);
+        let (n, steep) = plane(corners);
+        let (t, inside) = distance(&seen, (n, seen[0].dot(n), steep), ray.direction, inside);
+        self.take_eight::<ANY>(ray.i, t, inside & Lanes::gt(t, ray.t_min), &block.id)
+    }
+
+    #[inline(always)]
+    fn eight_spheres<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, block: &SphereBlock) -> bool {
+        let (center, radius) = (Vec3::load(&block.center, 0), f32x8::from(block.radius));
+        let seen = sphere::SeenSphere::new(center, radius, Sides::Both, ray.origin);
+        if RARE {
+            return sphere::passes(&seen, ray.direction) && self.each_sphere::<ANY>(ray.i, block);
+        }
+        let far = f32x8::splat(f32::INFINITY);
+        let Some((t, inside)) = sphere::stable(&seen, ray.direction, ray.t_min, far) else { return false };
+        self.take_eight::<ANY>(ray.i, t, inside, &block.id)
+    }
+
+    /// Takes ray `i`'s hits of a block, where `inside` is true.
+    #[inline(always)]
+    fn take_eight<const ANY: bool>(&mut self, i: usize, t: f32x8, inside: f32x8, ids: &[u32; 8]) -> bool {
         let t = t.to_array();
         let mut bits = inside.bits();
         let mut taken = false;
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize & 7;
             bits &= bits - 1;
-            taken |= self.state.take::<f32, ANY>(i, t[lane], true, block.id[lane]);
+            taken |= self.state.take::<f32, ANY>(i, t[lane], true, ids[lane]);
         }
         taken
     }
 
+    /// The triangles of a block whose bits are set, each with its own sides.
+    #[inline(never)]
+    fn each_triangle<const ANY: bool>(&mut self, i: usize, block: &TriangleBlock, mut bits: u32) -> bool {
+        let mut taken = false;
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize & 7;
+            bits &= bits - 1;
+            if block.id[lane] != NONE {
+                taken |= self.triangle::<f32, ANY, true>(i, block.triangle(lane), true, block.id[lane]);
+            }
+        }
+        taken
+    }
+
+    /// The spheres of a block, each with its own sides.
     #[inline(never)]
     fn each_sphere<const ANY: bool>(&mut self, i: usize, block: &SphereBlock) -> bool {
         let spheres = &self.scene.spheres;
         let mut taken = false;
         for id in block.id.into_iter().take_while(|&id| id != NONE) {
             let record = spheres.record((id - self.scene.first.spheres) as usize);
-            taken |= self.packets::<crate::geometry::Spheres, f32, ANY, true>(&record, i..i + 1, id);
+            taken |= self.packets::<Spheres, f32, ANY, true>(&record, i..i + 1, id);
         }
         taken
     }

@@ -5,52 +5,109 @@ use crate::bvh::{Child, MOST_DEPTH, Node};
 /// A node leaves at most seven of its children behind.
 const ROOM: usize = 7 * MOST_DEPTH + 8;
 
-/// Entries are a child and the distance from which on it may be hit, as bits above the child's: distances are not
-/// below zero, and such bits rise with them.
+/// A child, and the distance from which on it may be hit: as bits above the child's, since distances are not below
+/// zero and such bits rise with them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Entry(u64);
+
+impl Entry {
+    #[inline(always)]
+    pub fn new(enter: f32, child: Child) -> Self {
+        Self((u64::from(enter.to_bits()) << 32) | u64::from(child.bits()))
+    }
+
+    /// From where on.
+    #[inline(always)]
+    pub fn enter(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    #[inline(always)]
+    pub fn child(self) -> Child {
+        Child::from_bits(self.0 as u32)
+    }
+}
+
+/// What is left, the nearest of every node's on top.
 #[derive(Clone, Debug)]
 pub struct Stack {
-    entries: [u64; ROOM],
+    entries: [Entry; ROOM],
     len: usize,
 }
 
 impl Default for Stack {
     fn default() -> Self {
-        Self { entries: [0; ROOM], len: 0 }
+        Self { entries: [Entry::default(); ROOM], len: 0 }
     }
 }
 
 impl Stack {
-    /// Holds `root` alone.
     #[inline(always)]
-    pub fn start(&mut self, root: Child) {
-        self.entries[0] = u64::from(root.bits());
-        self.len = 1;
+    pub fn clear(&mut self) {
+        self.len = 0;
     }
 
-    /// The nearest entry: from where, and the child.
+    /// The next entry that begins before `end`.
     #[inline(always)]
-    pub fn pop(&mut self) -> Option<(f32, Child)> {
-        self.len = self.len.checked_sub(1)?;
-        let entry = self.entries[self.len];
-        Some((f32::from_bits((entry >> 32) as u32), Child::from_bits(entry as u32)))
+    pub fn pop(&mut self, end: f32) -> Option<Entry> {
+        while self.len > 0 {
+            self.len -= 1;
+            let entry = self.entries[self.len];
+            if entry.enter() <= end {
+                return Some(entry);
+            }
+        }
+        None
     }
 
-    /// Adds the children of `node` whose bits are set, hit from `enter` on.
+    /// The nearest of the children of `node` whose bits are set, at least one, hit from `enter` on; the others are put
+    /// aside.
     #[inline(always)]
-    pub fn push(&mut self, node: &Node, enter: &[f32; 8], mut bits: u32) {
-        let base = self.len;
-        while bits != 0 {
+    pub fn nearest(&mut self, node: &Node, enter: &[f32; 8], mut bits: u32) -> Entry {
+        let mut take = || {
             let lane = bits.trailing_zeros() as usize & 7;
             bits &= bits - 1;
-            let entry = (u64::from(enter[lane].to_bits()) << 32) | u64::from(node.child[lane].bits());
-            // Sorted in from the top: few are hit at once.
-            let mut at = self.len;
-            while at > base && self.entries[at - 1] < entry {
-                self.entries[at] = self.entries[at - 1];
-                at -= 1;
-            }
-            self.entries[at] = entry;
-            self.len += 1;
+            (Entry::new(enter[lane], node.child[lane]), bits != 0)
+        };
+        let (first, more) = take();
+        if !more {
+            return first;
         }
+        let (second, more) = take();
+        let (near, far) = (first.min(second), first.max(second));
+        if !more {
+            self.push(far);
+            return near;
+        }
+        let base = self.len;
+        self.push(far);
+        self.push(near);
+        loop {
+            let (entry, more) = take();
+            self.sort_in(base, entry);
+            if !more {
+                break;
+            }
+        }
+        self.len -= 1;
+        self.entries[self.len]
+    }
+
+    #[inline(always)]
+    fn push(&mut self, entry: Entry) {
+        self.entries[self.len] = entry;
+        self.len += 1;
+    }
+
+    /// Adds an entry where it belongs above `base`.
+    #[inline(always)]
+    fn sort_in(&mut self, base: usize, entry: Entry) {
+        let mut at = self.len;
+        while at > base && self.entries[at - 1] < entry {
+            self.entries[at] = self.entries[at - 1];
+            at -= 1;
+        }
+        self.entries[at] = entry;
+        self.len += 1;
     }
 }

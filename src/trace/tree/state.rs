@@ -4,6 +4,7 @@ use crate::bvh::MOST_DEPTH;
 use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, NONE, RayBatch, Vec3};
 
+use super::line::Lines;
 use super::stack::Stack;
 
 /// Per ray: the end of its interval, the hit that set it, and what the triangles' test needs of its direction. Kept
@@ -16,14 +17,15 @@ pub struct State {
     pub t: [f32; BATCH],
     /// The primitive there, or [`NONE`].
     pub id: [u32; BATCH],
-    /// The axes across the directions, for triangles.
-    pub across: [[[f32; BATCH]; 3]; 2],
+    /// The directions' [`Aim::shear`], for triangles.
+    shear: [[f32; BATCH]; 2],
+    pub lines: Lines,
     pub stack: Stack,
 }
 
 impl Default for State {
     fn default() -> Self {
-        Self { t: [0.0; BATCH], id: [NONE; BATCH], across: [[[0.0; BATCH]; 3]; 2], stack: Stack::default() }
+        Self { t: [0.0; BATCH], id: [NONE; BATCH], shear: [[0.0; BATCH]; 2], lines: Lines::default(), stack: Stack::default() }
     }
 }
 
@@ -40,18 +42,16 @@ impl State {
             L::splat_id(NONE).store_ids(&mut self.id[at..]);
             if triangles {
                 let aim = Aim::new(Vec3::<L>::load(&rays.direction, at));
-                let [x, y] = aim.across();
-                x.store(&mut self.across[0], at);
-                y.store(&mut self.across[1], at);
+                aim.shear[0].store(&mut self.shear[0][at..]);
+                aim.shear[1].store(&mut self.shear[1][at..]);
             }
         }
     }
 
-    /// The directions of packet `at` for the triangles' test.
+    /// What the triangles' test shears packet `at` by.
     #[inline(always)]
-    pub fn aim<L: Lanes>(&self, rays: &RayBatch, at: usize) -> Aim<L> {
-        let across = [Vec3::load(&self.across[0], at), Vec3::load(&self.across[1], at)];
-        Aim::of(Vec3::load(&rays.direction, at), across)
+    pub fn shear<L: Lanes>(&self, at: usize) -> [L; 2] {
+        [L::load(&self.shear[0][at..]), L::load(&self.shear[1][at..])]
     }
 
     /// Takes hits of one primitive at `t` in packet `at`, where `inside` is true: whether any is nearer than what there

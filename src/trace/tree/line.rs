@@ -1,0 +1,99 @@
+//! A single ray against eight boxes at once; the bounds of [`super::beam`] for one ray.
+
+use crate::bvh::Bvh;
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
+use std::ops::Range;
+use wide::f32x8;
+
+use super::State;
+use super::beam::{PAD, SLACK, TINY};
+
+/// What the boxes are met with, a column a number, made for many rays at once.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct Lines {
+    inverse: [[f32; BATCH]; 3],
+    near: [[f32; BATCH]; 3],
+    far: [[f32; BATCH]; 3],
+    slack: [f32; BATCH],
+}
+
+impl Default for Lines {
+    fn default() -> Self {
+        let zero = [[0.0; BATCH]; 3];
+        Self { inverse: zero, near: zero, far: zero, slack: [0.0; BATCH] }
+    }
+}
+
+impl Lines {
+    /// For the rays of a range.
+    #[inline(always)]
+    pub fn prepare(&mut self, rays: &RayBatch, bvh: &Bvh, range: Range<usize>) {
+        let (min, max) = (Vec3::<f32x8>::splat(bvh.bounds.min), Vec3::splat(bvh.bounds.max));
+        for at in range.step_by(8) {
+            let origin = rays.origins::<f32x8>(at);
+            let reach = Lanes::max((max - origin).max_abs(), (origin - min).max_abs()) + origin.max_abs();
+            let pad = reach * f32x8::splat(PAD);
+            (reach * f32x8::splat(SLACK)).store(&mut self.slack[at..]);
+            let d = Vec3::<f32x8>::load(&rays.direction, at);
+            for (axis, (o, d)) in [(origin.x, d.x), (origin.y, d.y), (origin.z, d.z)].into_iter().enumerate() {
+                let tiny = Lanes::lt(Lanes::abs(d), f32x8::splat(TINY));
+                let least = Lanes::select(f32x8::splat(-TINY), Lanes::lt(d, f32x8::ZERO), f32x8::splat(TINY));
+                let inverse = f32x8::ONE / Lanes::select(least, tiny, d);
+                let wider = Lanes::abs(inverse) * pad;
+                let at_origin = o * inverse;
+                inverse.store(&mut self.inverse[axis][at..]);
+                (at_origin + wider).store(&mut self.near[axis][at..]);
+                (at_origin - wider).store(&mut self.far[axis][at..]);
+            }
+        }
+    }
+}
+
+/// A ray in every lane.
+pub struct Line {
+    /// Per axis, 1 / d.
+    inverse: [f32x8; 3],
+    /// What is taken from the near face times that.
+    near: [f32x8; 3],
+    /// And from the far face.
+    far: [f32x8; 3],
+    /// Which end of a box is the near one.
+    side: [usize; 3],
+    /// SLACK (D + |o|).
+    pub slack: f32,
+}
+
+impl Line {
+    /// Ray `i`, which is prepared.
+    #[inline(always)]
+    pub fn new(state: &State, direction: Vec3<f32>, i: usize) -> Self {
+        let Lines { inverse, near, far, slack } = &state.lines;
+        let splat = |columns: &[[f32; BATCH]; 3]| {
+            [f32x8::splat(columns[0][i]), f32x8::splat(columns[1][i]), f32x8::splat(columns[2][i])]
+        };
+        let behind = |d: f32| usize::from(d < 0.0);
+        Self {
+            inverse: splat(inverse),
+            near: splat(near),
+            far: splat(far),
+            side: [behind(direction.x), behind(direction.y), behind(direction.z)],
+            slack: slack[i],
+        }
+    }
+
+    /// Eight boxes' entries, not below zero, and where they are met before `end`.
+    #[inline(always)]
+    pub fn meets(&self, ends: &[[[f32; 8]; 3]; 2], end: f32x8) -> (f32x8, u32) {
+        let mut enter = f32x8::ZERO;
+        let mut exit = end;
+        for axis in 0..3 {
+            let side = self.side[axis] & 1;
+            let inverse = self.inverse[axis];
+            // What is NaN (∞ − ∞) is passed over.
+            enter = Lanes::max(f32x8::from(ends[side][axis]).mul_sub(inverse, self.near[axis]), enter);
+            exit = Lanes::min(f32x8::from(ends[side ^ 1][axis]).mul_sub(inverse, self.far[axis]), exit);
+        }
+        (enter, LaneMask::bits(Lanes::le(enter, exit)))
+    }
+}
