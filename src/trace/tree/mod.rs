@@ -1,7 +1,7 @@
 //! The two queries by way of the [`Bvh`]: rays that run together descend as a group behind a beam that holds them all,
 //! others one at a time.
 //!
-//! A batch is cut into groups of [`GROUP`] rays. Every box, beam and interval on the way down is wider than anything
+//! A batch is cut into groups of rays that stay together on the scale of the tree's blocks. Every box, beam and interval on the way down is wider than anything
 //! the primitives' tests can find ([`beam`]), and of equal distances the lowest id is kept: so the answers are those of
 //! testing everything, to the bit, whatever the tree, the groups and the order.
 
@@ -24,18 +24,15 @@ use crate::scene::Scene;
 use beam::Beam;
 use std::ops::Range;
 
-/// Rays a group.
-pub const GROUP: usize = 16;
-/// Rays that are tried together first.
-pub const LARGE: usize = 64;
-/// How far apart the directions of a group may be along any axis for its rays to run together.
-const SPREAD: f32 = 0.5;
-const LFAR: f32 = 1.5;
-const LNEAR: f32 = 1.0;
-const SFAR: f32 = 30.0;
-const SNEAR: f32 = 1.5;
-/// How far apart its origins may be, in sizes of the tree's blocks.
-const APART: f32 = 4.0;
+/// The fewest rays a group: a smaller one is traced ray by ray.
+const GROUP: usize = 16;
+/// How far apart a group's directions may be along any axis.
+const WIDEST: f32 = 0.5;
+/// How far apart they may be at the far side of the scene, in sizes of the tree's blocks: for a group to stay whole, and
+/// for its rays not to be traced one by one.
+const FAR: [f32; 2] = [2.5, 30.0];
+/// How far apart the origins may be, likewise.
+const NEAR: [f32; 2] = [1.0, 1.5];
 
 /// What a traversal works on; `RARE` and `ANY` as everywhere.
 struct Walk<'a> {
@@ -99,39 +96,40 @@ fn answer<L: Lanes, const ANY: bool, const RARE: bool>(
         let Some(bounds) = bounds() else { return };
         walk.planes::<L, ANY>(&bounds);
     }
-    let end = rays.len.next_multiple_of(L::WIDTH);
-    for first in (0..end).step_by(LARGE) {
-        let large = first..(first + LARGE).min(end);
-        if walk.together::<L, ANY, RARE>(large.clone()) {
-            continue;
-        }
-        for first in large.clone().step_by(GROUP) {
-            let range = first..(first + GROUP).min(end);
-            if !walk.together::<L, ANY, RARE>(range.clone()) {
-                walk.state.lines.prepare(rays, bvh, range.clone());
-                for i in range {
-                    walk.single::<ANY, RARE>(i);
-                }
-            }
-        }
-    }
+    walk.rays::<L, ANY, RARE>(0..rays.len.next_multiple_of(L::WIDTH));
 }
 
 impl Walk<'_> {
-    /// Traces the rays of a range as a group if that is faster than one by one.
-    #[inline(always)]
-    fn together<L: Lanes, const ANY: bool, const RARE: bool>(&mut self, range: Range<usize>) -> bool {
-        let Some([origins, directions]) = Beam::ends(self.rays, self.state, range.clone()) else { return true };
+    /// Traces the rays of a range: together, in parts, or one by one.
+    fn rays<L: Lanes, const ANY: bool, const RARE: bool>(&mut self, range: Range<usize>) {
+        let Some([origins, directions]) = Beam::ends(self.rays, self.state, range.clone()) else { return };
+        let bvh = self.bvh;
+        let size = (bvh.bounds.max - bvh.bounds.min).max_element();
         let spread = (directions[1] - directions[0]).max_element();
-        let apart = (origins[1] - origins[0]).max_element();
-        let size = (self.bvh.bounds.max - self.bvh.bounds.min).max_element();
-        let (far, near) = if range.len() > GROUP { (LFAR, LNEAR) } else { (SFAR, SNEAR) };
-        // NaN fails these.
-        let together = spread < 0.5 && spread * size < far * self.bvh.grain && apart <= near * self.bvh.grain;
-        if together {
-            self.group::<L, ANY, RARE>(&Beam::new(origins, directions, self.bvh), range);
+        let far = spread * size / bvh.grain;
+        let near = (origins[1] - origins[0]).max_element() / bvh.grain;
+        if range.len() <= GROUP {
+            // NaN fails these.
+            if spread < WIDEST && far < FAR[1] && near <= NEAR[1] {
+                self.group::<L, ANY, RARE>(&Beam::new(origins, directions, bvh), range);
+            } else {
+                self.state.lines.prepare(self.rays, bvh, range.clone());
+                range.for_each(|i| self.single::<ANY, RARE>(i));
+            }
+            return;
         }
-        together
+        let excess = f32::max(far / FAR[0], near / NEAR[0]);
+        if spread < WIDEST && excess <= 1.0 {
+            return self.group::<L, ANY, RARE>(&Beam::new(origins, directions, bvh), range);
+        }
+        // A part's rays lie closer together by the root of what it is smaller.
+        let (mut part, mut excess) = ((range.len() / 2).next_power_of_two(), excess * excess);
+        while part > GROUP && excess.is_nan() | (excess > 2.0) {
+            (part, excess) = (part / 2, excess / 2.0);
+        }
+        for first in range.clone().step_by(part) {
+            self.rays::<L, ANY, RARE>(first..(first + part).min(range.end));
+        }
     }
 
     /// What no box holds: the planes.
