@@ -33,7 +33,8 @@ struct Layout<'a, S> {
 
 /// The tree as it is traversed.
 pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
-    let mut layout = Layout { source, tree, nodes: Vec::new(), leaves: [const { Vec::new() }; 3], depth: 0, extents: [0.0; 2] };
+    let mut layout =
+        Layout { source, tree, nodes: Vec::new(), leaves: [const { Vec::new() }; 3], depth: 0, extents: [0.0; 2] };
     let root = layout.child(Place::default(), 1);
     let [triangles, spheres, others] = &layout.leaves;
     let indices = |leaf: &Leaf| {

@@ -106,19 +106,20 @@ impl Beam {
         beam
     }
 
-    /// Eight boxes' entries, not below zero, and where they are met before `end`. `ends` are the boxes' least and
-    /// greatest coordinates; `MIXED` may be false where [`Beam::mixed`] is.
+    /// Eight boxes' entries, not below zero, and where they are met before `end`. `faces` gives the boxes' near and far
+    /// coordinates along an axis, told which end is near (0 for the least); `MIXED` may be false where
+    /// [`Beam::mixed`] is.
     #[inline(always)]
-    pub fn meets<const MIXED: bool>(&self, ends: &[[[f32; 8]; 3]; 2], end: f32x8) -> (f32x8, u32) {
+    pub fn meets<const MIXED: bool>(&self, faces: impl Fn(usize, usize) -> [f32x8; 2], end: f32x8) -> (f32x8, u32) {
         let mut enter = f32x8::ZERO;
         let mut exit = end;
         for axis in 0..3 {
             let (r, a) = self.near[axis];
             let (q, b) = self.far[axis];
-            let side = self.side[axis] & 1;
+            let [near, far] = faces(axis, self.side[axis] & 1);
             // What is NaN (∞ − ∞) is passed over.
-            enter = Lanes::max(f32x8::from(ends[side][axis]).mul_sub(r, a), enter);
-            let other = f32x8::from(ends[side ^ 1][axis]).mul_sub(q, b);
+            enter = Lanes::max(near.mul_sub(r, a), enter);
+            let other = far.mul_sub(q, b);
             if MIXED && self.both[axis] {
                 enter = Lanes::max(other, enter);
             } else {

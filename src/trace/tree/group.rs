@@ -34,16 +34,17 @@ impl Walk<'_> {
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[i];
-                    let (enter, met) = beam.meets::<MIXED>(&node.ends, f32x8::splat(limit));
+                    let (enter, met) = beam.meets::<MIXED>(
+                        |axis, near| [near, near ^ 1].map(|end| f32x8::from(node.ends[end][axis])),
+                        f32x8::splat(limit),
+                    );
                     if met != 0 {
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
                         continue;
                     }
                     false
                 }
-                Kind::Triangles => {
-                    self.triangles::<L, ANY, RARE, MIXED>(&bvh.triangles[i], beam, limit, range.clone())
-                }
+                Kind::Triangles => self.triangles::<L, ANY, RARE, MIXED>(&bvh.triangles[i], beam, limit, range.clone()),
                 Kind::Spheres => self.spheres::<L, ANY, RARE, MIXED>(&bvh.spheres[i], beam, limit, range.clone()),
                 Kind::Others => self.others::<L, ANY>(i, range.clone()),
             };

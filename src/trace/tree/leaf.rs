@@ -23,13 +23,11 @@ impl Walk<'_> {
         limit: f32,
         range: Range<usize>,
     ) -> bool {
-        let [a, b, c] = &block.corners;
-        let least =
-            |axis: usize| Lanes::min(f32x8::from(a[axis]), Lanes::min(f32x8::from(b[axis]), f32x8::from(c[axis])));
-        let most =
-            |axis: usize| Lanes::max(f32x8::from(a[axis]), Lanes::max(f32x8::from(b[axis]), f32x8::from(c[axis])));
-        let ends = [[least(0), least(1), least(2)], [most(0), most(1), most(2)]].map(|v| v.map(f32x8::to_array));
-        let (_, mut met) = beam.meets::<MIXED>(&ends, f32x8::splat(limit));
+        let faces = |axis: usize, near: usize| {
+            let [a, b, c] = [0, 1, 2].map(|k| f32x8::from(block.corners[k][axis]));
+            in_order(near, Lanes::min(a, Lanes::min(b, c)), Lanes::max(a, Lanes::max(b, c)))
+        };
+        let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
         let mut taken = false;
         while met != 0 {
             let lane = met.trailing_zeros() as usize & 7;
@@ -95,9 +93,11 @@ impl Walk<'_> {
         range: Range<usize>,
     ) -> bool {
         let radius = f32x8::from(block.radius);
-        let [x, y, z] = block.center.map(f32x8::from);
-        let ends = [[x - radius, y - radius, z - radius], [x + radius, y + radius, z + radius]];
-        let (_, mut met) = beam.meets::<MIXED>(&ends.map(|v| v.map(f32x8::to_array)), f32x8::splat(limit));
+        let faces = |axis: usize, near: usize| {
+            let center = f32x8::from(block.center[axis]);
+            in_order(near, center - radius, center + radius)
+        };
+        let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
         let mut taken = false;
         while met != 0 {
             let lane = met.trailing_zeros() as usize & 7;
@@ -185,4 +185,10 @@ fn there<L: Lanes>(sides: Sides, along: L) -> L::Mask {
         Sides::Front => along.lt(L::zero()),
         Sides::Back => along.gt(L::zero()),
     }
+}
+
+/// The near end first.
+#[inline(always)]
+fn in_order(near: usize, least: f32x8, most: f32x8) -> [f32x8; 2] {
+    if near == 0 { [least, most] } else { [most, least] }
 }

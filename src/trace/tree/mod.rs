@@ -30,7 +30,7 @@ const GROUP: usize = 16;
 const WIDEST: f32 = 0.5;
 /// How far apart they may be at the far side of the scene, in sizes of the tree's blocks: for a group to stay whole, and
 /// for its rays not to be traced one by one.
-const FAR: [f32; 2] = [2.5, 30.0];
+const FAR: [f32; 2] = [1.5, 30.0];
 /// How far apart the origins may be, likewise.
 const NEAR: [f32; 2] = [1.0, 1.5];
 

@@ -25,7 +25,13 @@ pub struct State {
 
 impl Default for State {
     fn default() -> Self {
-        Self { t: [0.0; BATCH], id: [NONE; BATCH], shear: [[0.0; BATCH]; 2], lines: Lines::default(), stack: Stack::default() }
+        Self {
+            t: [0.0; BATCH],
+            id: [NONE; BATCH],
+            shear: [[0.0; BATCH]; 2],
+            lines: Lines::default(),
+            stack: Stack::default(),
+        }
     }
 }
 
