@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod found;
 mod pair;
 mod rays;
 mod scenes;
@@ -65,7 +66,7 @@ fn thousands() {
 
 #[test]
 fn twenty_thousand() {
-    run(Kind::Random(20_000), 2, 3);
+    run(Kind::Random(20_000), 2, 16);
 }
 
 #[test]

@@ -110,11 +110,16 @@ impl Pair {
         let mut alone = RayBatch::default();
         alone.push(origin, direction, t_min, t_max);
         let differ = |description: &Description| {
-            let [a, b] = [Structure::None, Structure::Tree].map(|s| {
-                let scene = compile_as(description, Some(s)).expect("a part of a sound scene");
-                Answers::new::<f32>(&scene, &alone, &mut Candidates::default()).of(0)
-            });
-            a != b
+            let compiled = |s| compile_as(description, Some(s)).expect("a part of a sound scene");
+            let [without, with] = [Structure::None, Structure::Tree].map(compiled);
+            let mut scratch = Candidates::default();
+            let wanted = Answers::new::<f32x8>(&without, &alone, &mut scratch).of(0);
+            let found = [
+                Answers::new::<f32>(&with, &alone, &mut scratch).of(0),
+                Answers::new::<f32x4>(&with, &alone, &mut scratch).of(0),
+                Answers::new::<f32x8>(&with, &alone, &mut scratch).of(0),
+            ];
+            found.iter().any(|f| *f != wanted)
         };
         text += &format!("  the ray alone differs too: {}\n", differ(&self.description));
         let mut part = empty();

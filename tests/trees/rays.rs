@@ -32,6 +32,8 @@ enum Directions {
     Axes,
     /// From a point in a triangle's or quad's plane, in this plane or a few ε off it.
     Flat,
+    /// To points on the lines of the edges of triangles and quads, on them and next to their ends.
+    Ends,
 }
 
 /// A batch as it comes, and the same with intervals that end or start at hits.
@@ -63,10 +65,11 @@ fn batch(pair: &mut Pair, rng: &mut Pcg) -> RayBatch {
         Directions::Boxes,
         Directions::Axes,
         Directions::Flat,
+        Directions::Ends,
     ]);
     let size = pair.bounds.max - pair.bounds.min;
     let size = size.max_element().max(1e-6);
-    let flat = if directions == Directions::Flat { flat(pair, rng) } else { None };
+    let flat = if directions == Directions::Flat { flat_of(pair, rng) } else { None };
     let base = start_in(flat, pair, size, rng);
     let spread = size * rng.pick(&[0.3, 0.05, 1e-3, 1e-6, 1e-12]);
     let toward = pair.boxes.get(rng.below(pair.boxes.len().max(1))).map_or(rng.cube(), |b| within(b, rng) - base);
@@ -95,6 +98,7 @@ fn batch(pair: &mut Pair, rng: &mut Pcg) -> RayBatch {
             Directions::Flat if flat.is_some() => {
                 flat.map_or(axis, |f| f.along(origin, rng)) + rng.unit() * rng.pick(&[0.0, 0.0, 1e-8, 1e-7, 1e-6, 1e-4])
             }
+            Directions::Ends => flat_of(pair, rng).map_or(axis, |f| f.end(rng) - origin),
             _ => rng.unit(),
         };
         let direction = direction.try_normalize().unwrap_or_else(|| rng.pick(&Vec3::AXES));
@@ -169,7 +173,7 @@ struct Flat {
 }
 
 /// Of some triangle or quad.
-fn flat(pair: &Pair, rng: &mut Pcg) -> Option<Flat> {
+fn flat_of(pair: &Pair, rng: &mut Pcg) -> Option<Flat> {
     let scene = &pair.with;
     let (triangles, quads) = (scene.triangles.material.len(), scene.quads.material.len());
     let i = rng.below((triangles + quads).max(1));
@@ -182,6 +186,15 @@ fn flat(pair: &Pair, rng: &mut Pcg) -> Option<Flat> {
 }
 
 impl Flat {
+    /// On the line of an edge, mostly near one of its ends.
+    fn end(&self, rng: &mut Pcg) -> Vec3 {
+        let [u, v] = self.edges;
+        let (from, along) = rng.pick(&[(Vec3::ZERO, u), (Vec3::ZERO, v), (u, v - u), (u, v), (v, u)]);
+        let off = rng.pick(&[0.0, 1e-7, -1e-7, 1e-6, 1e-5, 1e-4, -1e-4, 1e-3]);
+        let any = rng.range(0.0, 1.0);
+        self.corner + from + along * rng.pick(&[-off, 1.0 + off, any])
+    }
+
     /// In its plane, mostly outside.
     fn start(&self, rng: &mut Pcg) -> Vec3 {
         let mut share = || {

@@ -307,7 +307,7 @@ fn sides(scene: &mut Description, rng: &mut Pcg) {
 
 fn exponential(scene: &mut Description, rng: &mut Pcg) {
     let base: f32 = rng.pick(&[2.0, 1.5, 4.0]);
-    let [from, to] = rng.pick(&[[-20, 20], [-36, 0], [0, 36]]);
+    let [from, to] = rng.pick(&[[-18, 18], [-36, 0], [0, 18]]);
     let random = rng.unit();
     let along = rng.pick(&[Vec3::X, Vec3::ONE, vec3(1.0, -1.0, 0.0), random]);
     for _ in 0..rng.pick(&[1, 3]) {
