@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 use raypacket::math::RayBatch;
-use raypacket::scene::{Description, Quad};
+use raypacket::scene::{Cuboid, Description, Quad};
 use raypacket::trace::NONE;
 
 use crate::common::{Pcg, empty, mesh, sphere};
@@ -63,4 +63,21 @@ fn a_hit_that_the_box_brings_before_another() {
     let u = vec3(-0.092_170_2, 0.237_701_33, -0.308_225_15);
     scene.quads.push(Quad { corner: vec3(0.0, 0.0, -0.0), u, v, material: 0 });
     trace(scene, v, vec3(-0.077_337_615, -0.800_551, -0.594_253_3));
+}
+
+/// Where a batch says that its rays start at one point, only ray 0's is read, by the boxes of rare kinds as well.
+#[test]
+fn one_origin_before_boxes() {
+    let mut scene = empty();
+    let cuboid = Cuboid { min: Vec3::NEG_ONE, max: Vec3::ONE, rotation: Vec3::ZERO, material: 0 };
+    scene.cuboids.push(cuboid);
+    let mut pair = Pair::new(scene);
+    let mut rays = RayBatch::default();
+    for _ in 0..20 {
+        rays.push(vec3(0.5, 0.25, 3.0), Vec3::NEG_Z, 0.0, f32::INFINITY);
+    }
+    assert!(rays.common_origin);
+    (0..3).for_each(|axis| rays.origin[axis][1..].fill(50.0));
+    assert_eq!(pair.hits(&rays).t[..20], [2.0; 20]);
+    pair.check(&rays, "one origin before a box");
 }

@@ -107,6 +107,7 @@ impl Pair {
             answer(wanted),
             answer(found)
         );
+        text += &format!("  the batch says that it has one origin: {}\n", rays.common_origin);
         let mut alone = RayBatch::default();
         alone.push(origin, direction, t_min, t_max);
         let differ = |description: &Description| {

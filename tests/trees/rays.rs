@@ -67,8 +67,8 @@ fn batch(pair: &mut Pair, rng: &mut Pcg) -> RayBatch {
         Directions::Flat,
         Directions::Ends,
     ]);
-    let size = pair.bounds.max - pair.bounds.min;
-    let size = size.max_element().max(1e-6);
+    let bounds = pair.bounds;
+    let size = (bounds.max - bounds.min).max_element().max(1e-6);
     let flat = if directions == Directions::Flat { flat_of(pair, rng) } else { None };
     let base = start_in(flat, pair, size, rng);
     let spread = size * rng.pick(&[0.3, 0.05, 1e-3, 1e-6, 1e-12]);
@@ -118,6 +118,11 @@ fn batch(pair: &mut Pair, rng: &mut Pcg) -> RayBatch {
                 rays.origin[axis][..len].fill(value);
             }
         }
+    }
+    if rays.common_origin {
+        // Nothing but ray 0's may be read then.
+        let other = rng.pick(&[Vec3::NAN, bounds.min - size, bounds.max + size * 30.0, bounds.center()]);
+        (0..3).for_each(|axis| rays.origin[axis][1..].fill(other[axis]));
     }
     rays
 }
