@@ -51,7 +51,11 @@ pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
         root,
         bounds: tree.nodes[0].bounds,
         depth: layout.depth,
-        grain: (layout.extents[1] / layout.extents[0].max(f64::MIN_POSITIVE)) as f32,
+        grain: match layout.extents {
+            // All are large.
+            [0.0, _] => (tree.nodes[0].bounds.max - tree.nodes[0].bounds.min).max_element() / 8.0,
+            [squares, cubes] => (cubes / squares) as f32,
+        },
         nodes: layout.nodes,
     }
 }

@@ -267,7 +267,7 @@ pub struct Bvh {
     /// The most nodes on a way from the root to a block; at most [`MOST_DEPTH`].
     pub depth: usize,
     /// How large blocks are: the mean of their largest extents, weighted by area, without those of an eighth of the whole
-    /// and more; 0 when there are no others.
+    /// and more; an eighth of the whole when there are no others.
     pub grain: f32,
 }
 

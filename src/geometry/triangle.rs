@@ -7,9 +7,8 @@
 //!   §3: the corners are sheared along the ray's largest component, each by itself and so alike for all triangles that
 //!   share it, and the sign of every edge function x y' − y x' is exact, since both products round the same way; so no
 //!   ray slips between triangles that share an edge or a corner. Two deviations: an edge function of 0 is not computed
-//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within what the corners lie at along
-//!   the ray, which stays right edge-on and keeps t's sign right next to the plane. Where the ray is so close to edge-on, or
-//!   the triangle to a sliver, that this says little ([`plane`]), t is kept within the triangle's box.
+//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within the
+//!   triangle's box, without which a line is not hit ([`distance`]).
 //! - [`moller_trumbore`] (*Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its determinants expanded along
 //!   the direction instead of the edges: with T = o − a, e1 = b − a, e2 = c − a and N = e1 × e2, det = d·N,
 //!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two
@@ -72,8 +71,6 @@ pub struct TriangleRecord {
     pub corners: [Vec3<f32>; 3],
     /// N = (b − a) × (c − a).
     pub n: Vec3<f32>,
-    /// See [`steep`].
-    pub steep: f32,
     /// Which side is there.
     pub sides: Sides,
 }
@@ -87,8 +84,6 @@ pub struct SeenTriangle<L> {
     pub n: Vec3<L>,
     /// a·N, from the origin.
     pub height: L,
-    /// See [`steep`].
-    pub steep: f32,
     /// Which side is there.
     pub sides: Sides,
 }
@@ -213,14 +208,13 @@ impl Primitives for Triangles {
     #[inline(always)]
     fn record(&self, i: usize) -> TriangleRecord {
         let corners = self.corners(i).map(Vec3::from);
-        let (n, steep) = plane(corners);
-        TriangleRecord { corners, n, steep, sides: self.sides[i] }
+        TriangleRecord { corners, n: normal(corners), sides: self.sides[i] }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &TriangleRecord, origin: Vec3<L>) -> SeenTriangle<L> {
         let corners = r.corners.map(|c| Vec3::splat(c.into()) - origin);
         let n = Vec3::splat(r.n.into());
-        SeenTriangle { corners, n, height: corners[0].dot(n), steep: r.steep, sides: r.sides }
+        SeenTriangle { corners, n, height: corners[0].dot(n), sides: r.sides }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTriangle<f32>) -> SeenTriangle<L> {
@@ -228,7 +222,6 @@ impl Primitives for Triangles {
             corners: s.corners.map(|c| Vec3::splat(c.into())),
             n: Vec3::splat(s.n.into()),
             height: L::splat(s.height),
-            steep: s.steep,
             sides: s.sides,
         }
     }
@@ -266,25 +259,17 @@ impl Primitives for Triangles {
     }
 }
 
-/// N = (b − a) × (c − a), and the size of N·d from which on a ray is steep enough for its distance to be certain, to
-/// within [`SLACK`] of the farthest corner's: 1/32 of the product of the edges' sizes.
-///
-/// With E that product, N is off by 6 ε E, a·N by 10 ε |a| E and t by 24 ε (|a| + longest edge) E / N·d, below 374 ε D
-/// times the largest components' product over N·d.
+/// N = (b − a) × (c − a).
 #[inline(always)]
-pub fn plane<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> (Vec3<L>, L) {
-    let (e1, e2) = (b - a, c - a);
-    (e1.cross(e2), e1.max_abs() * e2.max_abs() * L::splat(0.03125))
+pub fn normal<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> Vec3<L> {
+    (b - a).cross(c - a)
 }
-
-/// How far before a triangle's box a ray may hit it, in distances of its farthest corner along any axis.
-pub const SLACK: f32 = 1.0 / (1 << 10) as f32;
 
 /// The default; see the module's text.
 #[inline(always)]
 pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
     let inside = covers(&seen.corners, aim)?;
-    let (t, inside) = distance(&seen.corners, (seen.n, seen.height, L::splat(seen.steep)), aim.direction, inside);
+    let (t, inside) = distance(&seen.corners, seen.n, seen.height, aim.direction, inside);
     let inside = inside & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
@@ -312,33 +297,42 @@ pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Opti
     inside.any().then_some(inside)
 }
 
-/// The second half: how far away, for lines that pass through; where there is such a distance.
+/// The second half: how far away, for lines that pass through; where they meet the triangle's box, and within it.
+///
+/// The plane alone does not tell: edge-on, or where a triangle is smaller than the rounding of its distance, all edge
+/// functions vanish however far a line passes by, and t is off by any number of ε. The box is wider by 32 ε of its
+/// farthest corner's distance along any axis, as a line that touches an edge may pass it by 20 ε.
 #[inline(always)]
 pub fn distance<L: Lanes>(
-    corners: &[Vec3<L>; 3],
-    (n, height, steep): (Vec3<L>, L, L),
+    &[a, b, c]: &[Vec3<L>; 3],
+    n: Vec3<L>,
+    height: L,
     direction: Vec3<L>,
     inside: L::Mask,
 ) -> (L, L::Mask) {
-    let [az, bz, cz] = corners.map(|c| c.dot(direction));
     let along = n.dot(direction);
-    let t = (height / along).max(az.min(bz).min(cz)).min(az.max(bz).max(cz));
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    let Vec3 { x, y, z } = high.max(-low);
+    let pad = x.max(y).max(z) * L::splat(1.0 / (1 << 19) as f32);
+    let pad = Vec3::new(pad, pad, pad);
+    let (low, high) = (low - pad, high + pad);
+    let t = height / along;
     let inside = inside & !along.eq(L::zero());
-    let shallow = inside & along.abs().lt(steep);
-    let t = if shallow.any() { in_box(corners, direction, t).select(shallow, t) } else { t };
-    (t, inside)
+    let Vec3 { x, y, z } = direction * t;
+    let in_box = x.ge(low.x) & x.le(high.x) & y.ge(low.y) & y.le(high.y) & z.ge(low.z) & z.le(high.z);
+    let beside = inside & !in_box;
+    if !beside.any() {
+        return (t, inside);
+    }
+    let (nearest, met) = within(low, high, direction, t);
+    (nearest.select(beside, t), inside & (in_box | met))
 }
 
-/// `t`, or where the ray enters or leaves the triangle's box if that is nearer.
-///
-/// The box is wider by 32 ε of the farthest corner's distance, as the ray's line may miss the triangle by 20 ε of it.
+/// `t`, or where the ray enters or leaves the box if that is nearer, and where it meets the box.
 #[inline(never)]
-fn in_box<L: Lanes>([a, b, c]: &[Vec3<L>; 3], direction: Vec3<L>, t: L) -> L {
-    let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
-    let pad = low.max_abs().max(high.max_abs()) * L::splat(1.0 / (1 << 19) as f32);
-    let pad = Vec3::new(pad, pad, pad);
-    let (enter, exit) = between(low - pad, high + pad, &face::Aim::new(direction));
-    t.max(enter).min(exit)
+fn within<L: Lanes>(low: Vec3<L>, high: Vec3<L>, direction: Vec3<L>, t: L) -> (L, L::Mask) {
+    let (enter, exit) = between(low, high, &face::Aim::new(direction));
+    (t.max(enter).min(exit), enter.le(exit))
 }
 
 /// What [`moller_trumbore`] needs of a triangle and of the rays' origin.

@@ -13,6 +13,7 @@ pub(super) struct Packet<L> {
     pub origin: Vec3<L>,
     pub direction: Vec3<L>,
     pub t_min: L,
+    pub t_max: L,
 }
 
 /// The candidates; the common kinds as slices, so that where they lie is known outside the loop over the packets.
@@ -114,8 +115,10 @@ fn each_boxed<F: Form, K: Primitives, L: Lanes, Q: Query<L>>(
     for (record, id) in records {
         let Some(within) = boxes.meet(*id, packet.t_min, query.t_max()) else { continue };
         let seen = F::seen::<K, L>(record, packet.origin);
-        if let Some((t, inside)) = K::nearest::<L, true>(&seen, &aim, packet.t_min, query.t_max()) {
+        // As far as the ray goes: the box may bring a hit before another that was found.
+        if let Some((t, inside)) = K::nearest::<L, true>(&seen, &aim, packet.t_min, packet.t_max) {
             let (t, inside) = within.keep(t, inside);
+            let inside = inside & t.lt(query.t_max());
             query.hit(t, inside, *id);
             if query.done() {
                 return;
@@ -141,7 +144,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
         }
         // Nothing lies before −∞, so inactive lanes take no hit.
         let mut query = Nearest::new(t_max.select(active, L::splat(f32::NEG_INFINITY)));
-        candidates.visit::<L, _, RARE>(scene, packet(rays, at), &mut query);
+        candidates.visit::<L, _, RARE>(scene, packet::<L, RARE>(rays, at), &mut query);
         take(at, active, &query);
     }
 }
@@ -163,16 +166,18 @@ pub fn any<F: Form, L: Lanes, const RARE: bool>(
             continue;
         }
         let mut query = Any { settled: !active, t_max };
-        candidates.visit::<L, _, RARE>(scene, packet(rays, at), &mut query);
+        candidates.visit::<L, _, RARE>(scene, packet::<L, RARE>(rays, at), &mut query);
         take(at, active, query.settled);
     }
 }
 
 #[inline(always)]
-fn packet<L: Lanes>(rays: &RayBatch, at: usize) -> Packet<L> {
+fn packet<L: Lanes, const RARE: bool>(rays: &RayBatch, at: usize) -> Packet<L> {
     Packet {
-        origin: Vec3::load(&rays.origin, at),
+        // Only boxes need it of rays that share it.
+        origin: if RARE { rays.origins(at) } else { Vec3::load(&rays.origin, at) },
         direction: Vec3::load(&rays.direction, at),
         t_min: L::load(&rays.t_min[at..]),
+        t_max: L::load(&rays.t_max[at..]),
     }
 }

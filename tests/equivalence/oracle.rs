@@ -86,10 +86,11 @@ impl Best<'_> {
             };
             let Some((enter, exit)) = within else { continue };
             let seen = K::seen(&kind.record(i), origin);
+            let hit = K::nearest::<f32, true>(&seen, &aim, self.ray.t_min, self.ray.t_max);
             // Only a strictly nearer hit replaces one that is there, so the lowest id keeps a tie.
-            let hit = K::nearest::<f32, true>(&seen, &aim, self.ray.t_min, self.t);
+            let hit = hit.map(|(t, inside)| (t.max(enter).min(exit), inside));
             if let Some((t, true)) = hit.filter(|(t, _)| *t < self.t) {
-                (self.t, self.id) = (t.max(enter).min(exit), first + i as u32);
+                (self.t, self.id) = (t, first + i as u32);
             }
         }
     }

@@ -10,12 +10,11 @@
 //! distance (see their files: at most 32 ε (D + |o|), with D the distance of the scene's farthest corner along any
 //! axis), and the arithmetic here moves a face by at most 8 ε (D + |o|) (as Ize, *Robust BVH Ray Traversal*, JCGT 2
 //! (2013), adds it to the exit; here every face is moved, as the primitives' own error goes across the ray as well). So all
-//! boxes are wider by [`PAD`] (D + |o|) on all sides. A hit may also be found before the ray enters the primitive's box, by
-//! at most [`SLACK`] (D + |o|) ([`crate::geometry::triangle`] sees to that), so a box is left out only when it is that
-//! much farther than what was hit.
+//! boxes are wider by [`PAD`] (D + |o|) on all sides. No hit is found before the ray enters that box: the spheres'
+//! test errs as if the sphere were larger by 12 ε |f|, and all others keep their hits within boxes of their own, wider
+//! by 32 ε D ([`crate::geometry::triangle::distance`], [`super::super::boxes`]).
 
 use crate::bvh::Bvh;
-pub use crate::geometry::triangle::SLACK;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 use std::ops::Range;
 use wide::f32x8;
@@ -43,8 +42,6 @@ pub struct Beam {
     pub mixed: bool,
     /// The axis of the directions' largest component, where the bounds tell.
     pub major: Option<usize>,
-    /// SLACK (D + |o|).
-    pub slack: f32,
 }
 
 impl Beam {
@@ -86,7 +83,6 @@ impl Beam {
             both: [false; 3],
             mixed: false,
             major: major(d_min, d_max),
-            slack: SLACK * reach,
         };
         for axis in 0..3 {
             let (least, most) = (d_min[axis], d_max[axis]);

@@ -25,7 +25,7 @@ impl Walk<'_> {
         range: Range<usize>,
     ) {
         let bvh = self.bvh;
-        let end = |walk: &Self| walk.state.furthest::<L>(range.clone()) + beam.slack;
+        let end = |walk: &Self| walk.state.furthest::<L>(range.clone());
         let mut limit = end(self);
         self.state.stack.clear();
         let mut child = bvh.root;

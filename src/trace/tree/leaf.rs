@@ -1,7 +1,7 @@
 //! The primitives of a block against the packets of a group.
 
 use crate::bvh::{SphereBlock, TriangleBlock};
-use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, plane};
+use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, normal};
 use crate::geometry::{Primitives, Sides, SphereRecord, Spheres};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use crate::scene::with_primitive;
@@ -72,9 +72,8 @@ impl Walk<'_> {
         let direction = Vec3::load(&self.rays.direction, at);
         let origin = self.rays.origins::<L>(at);
         let seen = corners.map(|c| Vec3::splat(c) - origin);
-        let (n, steep) = plane(corners.map(Vec3::<f32>::from));
-        let n = Vec3::splat(n.into());
-        let (t, mut inside) = distance(&seen, (n, seen[0].dot(n), L::splat(steep)), direction, inside);
+        let n = Vec3::splat(normal(corners.map(Vec3::<f32>::from)).into());
+        let (t, mut inside) = distance(&seen, n, seen[0].dot(n), direction, inside);
         if RARE {
             inside = inside
                 & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], n.dot(direction));
@@ -163,8 +162,9 @@ impl Walk<'_> {
                 origin: self.rays.origins(at),
                 direction: Vec3::load(&self.rays.direction, at),
                 t_min: L::load(&self.rays.t_min[at..]),
+                t_max: L::load(&self.rays.t_max[at..]),
             };
-            let t_max = L::load(&self.rays.t_max[at..]);
+            let t_max = packet.t_max;
             let Some(within) = Boxes::new(self.scene, &packet).meet(id, packet.t_min, t_max) else { continue };
             let seen = K::seen::<L>(&record, packet.origin);
             let aim = K::aim(packet.direction);

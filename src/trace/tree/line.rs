@@ -6,7 +6,7 @@ use std::ops::Range;
 use wide::f32x8;
 
 use super::State;
-use super::beam::{PAD, SLACK, TINY};
+use super::beam::{PAD, TINY};
 
 /// What the boxes are met with, a column a number, made for many rays at once.
 #[derive(Clone, Debug)]
@@ -15,13 +15,12 @@ pub struct Lines {
     inverse: [[f32; BATCH]; 3],
     near: [[f32; BATCH]; 3],
     far: [[f32; BATCH]; 3],
-    slack: [f32; BATCH],
 }
 
 impl Default for Lines {
     fn default() -> Self {
         let zero = [[0.0; BATCH]; 3];
-        Self { inverse: zero, near: zero, far: zero, slack: [0.0; BATCH] }
+        Self { inverse: zero, near: zero, far: zero }
     }
 }
 
@@ -34,7 +33,6 @@ impl Lines {
             let origin = rays.origins::<f32x8>(at);
             let reach = Lanes::max((max - origin).max_abs(), (origin - min).max_abs()) + origin.max_abs();
             let pad = reach * f32x8::splat(PAD);
-            (reach * f32x8::splat(SLACK)).store(&mut self.slack[at..]);
             let d = Vec3::<f32x8>::load(&rays.direction, at);
             for (axis, (o, d)) in [(origin.x, d.x), (origin.y, d.y), (origin.z, d.z)].into_iter().enumerate() {
                 let tiny = Lanes::lt(Lanes::abs(d), f32x8::splat(TINY));
@@ -60,15 +58,13 @@ pub struct Line {
     far: [f32x8; 3],
     /// Which end of a box is the near one.
     side: [usize; 3],
-    /// SLACK (D + |o|).
-    pub slack: f32,
 }
 
 impl Line {
     /// Ray `i`, which is prepared.
     #[inline(always)]
     pub fn new(state: &State, direction: Vec3<f32>, i: usize) -> Self {
-        let Lines { inverse, near, far, slack } = &state.lines;
+        let Lines { inverse, near, far } = &state.lines;
         let splat = |columns: &[[f32; BATCH]; 3]| {
             [f32x8::splat(columns[0][i]), f32x8::splat(columns[1][i]), f32x8::splat(columns[2][i])]
         };
@@ -78,7 +74,6 @@ impl Line {
             near: splat(near),
             far: splat(far),
             side: [behind(direction.x), behind(direction.y), behind(direction.z)],
-            slack: slack[i],
         }
     }
 

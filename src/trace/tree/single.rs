@@ -1,7 +1,7 @@
 //! One ray against eight boxes, triangles or spheres at a time.
 
 use crate::bvh::{Kind, SphereBlock, TriangleBlock};
-use crate::geometry::triangle::{Aim, covers_ordered, distance, plane};
+use crate::geometry::triangle::{Aim, covers_ordered, distance, normal};
 use crate::geometry::{Primitives, Sides, Spheres, sphere};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use wide::f32x8;
@@ -37,7 +37,7 @@ impl Walk<'_> {
             major: Aim::major_of(direction),
             shear: self.state.shear::<f32>(i).map(f32x8::splat),
         };
-        let mut limit = self.state.t[i] + line.slack;
+        let mut limit = self.state.t[i];
         self.state.stack.clear();
         let mut child = bvh.root;
         loop {
@@ -57,7 +57,7 @@ impl Walk<'_> {
                 Kind::Others => self.others::<f32, ANY>(at, i..i + 1),
             };
             if closer {
-                limit = self.state.t[i] + line.slack;
+                limit = self.state.t[i];
                 if limit < 0.0 {
                     return;
                 }
@@ -82,8 +82,8 @@ impl Walk<'_> {
         }
         let corners = [0, 1, 2].map(|k| Vec3::load(&block.corners[k], 0));
         let seen = corners.map(|c| c - ray.origin);
-        let (n, steep) = plane(corners);
-        let (t, inside) = distance(&seen, (n, seen[0].dot(n), steep), ray.direction, inside);
+        let n = normal(corners);
+        let (t, inside) = distance(&seen, n, seen[0].dot(n), ray.direction, inside);
         self.take_eight::<ANY>(ray.i, t, inside & Lanes::gt(t, ray.t_min), &block.id)
     }
 

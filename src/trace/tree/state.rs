@@ -1,8 +1,7 @@
 //! What is known of a batch's rays on the way.
 
-use crate::bvh::MOST_DEPTH;
 use crate::geometry::triangle::Aim;
-use crate::math::{BATCH, LaneMask, Lanes, NONE, RayBatch, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, MOST_LANES, NONE, RayBatch, Vec3};
 
 use super::line::Lines;
 use super::stack::Stack;
@@ -39,7 +38,8 @@ impl State {
     /// For a new batch; `triangles` says whether there are any.
     #[inline(always)]
     pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
-        const { assert!(MOST_DEPTH <= 64) };
+        // Beams look at eight rays at a time, whatever the width.
+        self.t[rays.len..rays.len.next_multiple_of(MOST_LANES)].fill(f32::NAN);
         for at in (0..rays.len).step_by(L::WIDTH) {
             let t_max = L::load(&rays.t_max[at..]);
             let active =
@@ -103,7 +103,7 @@ impl State {
 /// Where all components are finite.
 #[inline(always)]
 fn finite<L: Lanes>(v: Vec3<L>) -> L::Mask {
-    // ∞ − ∞ is NaN.
-    let Vec3 { x, y, z } = v - v;
+    // 0 · ∞ is NaN.
+    let Vec3 { x, y, z } = v * L::zero();
     (x + y + z).eq(L::zero())
 }
