@@ -20,6 +20,7 @@ mod stats;
 mod tests;
 
 use glam::Vec3;
+use wide::f32x8;
 
 pub use aabb::Aabb;
 pub use stats::Stats;
@@ -163,6 +164,12 @@ impl Node {
     pub fn bounds(&self, lane: usize) -> Aabb {
         let [min, max] = self.ends.map(|end| end.map(|c| c[lane]).into());
         Aabb { min, max }
+    }
+
+    /// The boxes' coordinates along an axis at one end (0 for the least) and at the other.
+    #[inline(always)]
+    pub fn faces(&self, axis: usize, end: usize) -> [f32x8; 2] {
+        [end & 1, !end & 1].map(|end| self.ends[end][axis].into())
     }
 
     /// The number of used children.

@@ -34,10 +34,7 @@ impl Walk<'_> {
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[i];
-                    let (enter, met) = beam.meets::<MIXED>(
-                        |axis, near| [near, near ^ 1].map(|end| f32x8::from(node.ends[end][axis])),
-                        f32x8::splat(limit),
-                    );
+                    let (enter, met) = beam.meets::<MIXED>(|axis, near| node.faces(axis, near), f32x8::splat(limit));
                     if met != 0 {
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
                         continue;

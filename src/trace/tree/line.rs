@@ -1,6 +1,6 @@
 //! A single ray against eight boxes at once; the bounds of [`super::beam`] for one ray.
 
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, Node};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
 use std::ops::Range;
 use wide::f32x8;
@@ -79,15 +79,15 @@ impl Line {
 
     /// Eight boxes' entries, not below zero, and where they are met before `end`.
     #[inline(always)]
-    pub fn meets(&self, ends: &[[[f32; 8]; 3]; 2], end: f32x8) -> (f32x8, u32) {
+    pub fn meets(&self, node: &Node, end: f32x8) -> (f32x8, u32) {
         let mut enter = f32x8::ZERO;
         let mut exit = end;
         for axis in 0..3 {
-            let side = self.side[axis] & 1;
+            let [near, far] = node.faces(axis, self.side[axis]);
             let inverse = self.inverse[axis];
             // What is NaN (∞ − ∞) is passed over.
-            enter = Lanes::max(f32x8::from(ends[side][axis]).mul_sub(inverse, self.near[axis]), enter);
-            exit = Lanes::min(f32x8::from(ends[side ^ 1][axis]).mul_sub(inverse, self.far[axis]), exit);
+            enter = Lanes::max(near.mul_sub(inverse, self.near[axis]), enter);
+            exit = Lanes::min(far.mul_sub(inverse, self.far[axis]), exit);
         }
         (enter, LaneMask::bits(Lanes::le(enter, exit)))
     }

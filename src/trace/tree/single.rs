@@ -45,7 +45,7 @@ impl Walk<'_> {
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[at];
-                    let (enter, met) = line.meets(&node.ends, f32x8::splat(limit));
+                    let (enter, met) = line.meets(node, f32x8::splat(limit));
                     if met != 0 {
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
                         continue;
