@@ -40,9 +40,9 @@ pub const MOST_DEPTH: usize = 64;
 /// What it costs a ray to visit a node: the unit of the other costs.
 pub const NODE_COST: f64 = 1.0;
 /// What it costs a ray to visit a block, however many primitives are in it: load, transform, a test of eight lanes.
-pub const BLOCK_COST: f64 = 2.0;
+pub const BLOCK_COST: f64 = 1.5;
 /// What every primitive of a block adds: packets test those that a cull leaves one by one.
-pub const PRIMITIVE_COST: f64 = 0.1;
+pub const PRIMITIVE_COST: f64 = 0.05;
 
 /// What a primitive is to the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -53,7 +53,7 @@ impl Lighting {
 
     /// Adds light `light`; returns the number of shadow rays.
     #[inline(always)]
-    pub fn add<L: Lanes, const RICH: bool>(
+    pub fn add<L: Lanes, const RICH: bool, const MESH: bool>(
         &mut self,
         scene: &Scene,
         light: usize,
@@ -68,7 +68,7 @@ impl Lighting {
         };
         if count > 0 {
             observer.shadow(&self.rays);
-            self.collect::<L, RICH>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
+            self.collect::<L, RICH, MESH>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
         }
         count
     }
@@ -157,7 +157,7 @@ impl Lighting {
 
     /// Traces the shadow rays, and adds what the light does where nothing blocks them.
     #[inline(always)]
-    fn collect<L: Lanes, const RICH: bool>(
+    fn collect<L: Lanes, const RICH: bool, const MESH: bool>(
         &mut self,
         scene: &Scene,
         light: &Light,
@@ -169,7 +169,7 @@ impl Lighting {
         let Self { rays, irradiance, highlight, arriving, cosine } = self;
         let power = Vec3::<L>::splat(light.power);
         // Compiled in place, or it would load what it captures for every packet.
-        any_hits::<L, RICH>(
+        any_hits::<L, RICH, MESH>(
             scene,
             rays,
             || Some(*bounds),

@@ -8,6 +8,7 @@ use super::refract::{Split, split};
 use super::surface::{Surfaces, absorbed};
 use super::wave::{Leaving, Observer, Wave};
 use super::{sky, spawn};
+use crate::geometry::Primitives;
 use crate::math::{BATCH, LaneMask, Lanes, Vec3};
 use crate::scene::{LEAST_WEIGHT, Scene};
 use crate::trace::{Bounds, Candidates, Probe, nearest_hits};
@@ -97,14 +98,20 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
         if scene.plan.refracts {
             work.start_inside(scene);
         }
-        follow::<L, true>(scene, work, observer)
+        follow::<L, true, true>(scene, work, observer)
+    } else if scene.triangles.is_empty() {
+        follow::<L, false, false>(scene, work, observer)
     } else {
-        follow::<L, false>(scene, work, observer)
+        follow::<L, false, true>(scene, work, observer)
     }
 }
 
-/// [`trace_waves`] for a scene that is `RICH` ([`crate::scene::Plan::rich`]) or not.
-fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
+/// [`trace_waves`] for a scene that is `RICH` ([`crate::scene::Plan::rich`]) or not; `MESH` where it is or has triangles.
+fn follow<L: Lanes, const RICH: bool, const MESH: bool>(
+    scene: &Scene,
+    work: &mut Workspace,
+    observer: &mut impl Observer,
+) -> Counts {
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, queue, surfaces, lighting, candidates, .. } = work;
     for axis in radiance.iter_mut() {
@@ -115,7 +122,7 @@ fn follow<L: Lanes, const RICH: bool>(scene: &Scene, work: &mut Workspace, obser
     let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
     // All waves go through one call, which is compiled in place.
     loop {
-        counts.shadow += stage.shade::<L, RICH>(queued.as_deref().unwrap_or(primary), depth, observer);
+        counts.shadow += stage.shade::<L, RICH, MESH>(queued.as_deref().unwrap_or(primary), depth, observer);
         if let Some(wave) = queued.take() {
             stage.queue.give_back(wave);
         }
@@ -147,15 +154,20 @@ struct Stage<'a> {
 impl Stage<'_> {
     /// Traces and shades a wave, and queues the rays that go on from there; the number of shadow rays.
     #[inline(always)]
-    fn shade<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
+    fn shade<L: Lanes, const RICH: bool, const MESH: bool>(
+        &mut self,
+        wave: &Wave,
+        depth: u32,
+        observer: &mut impl Observer,
+    ) -> u64 {
         let scene = self.scene;
-        if !self.arrive::<L, RICH>(wave, depth) {
+        if !self.arrive::<L, RICH, MESH>(wave, depth) {
             return 0;
         }
         self.lighting.start(scene, wave.rays.len, self.surfaces.glossy);
         let mut shadow = 0;
         for light in 0..scene.lights.len() {
-            shadow += self.lighting.add::<L, RICH>(scene, light, wave, self.surfaces, self.candidates, observer);
+            shadow += self.lighting.add::<L, RICH, MESH>(scene, light, wave, self.surfaces, self.candidates, observer);
         }
         self.leave::<L, RICH>(wave, depth);
         shadow
@@ -163,11 +175,11 @@ impl Stage<'_> {
 
     /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
     #[inline(always)]
-    fn arrive<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32) -> bool {
+    fn arrive<L: Lanes, const RICH: bool, const MESH: bool>(&mut self, wave: &Wave, depth: u32) -> bool {
         let Self { scene, radiance, surfaces, candidates, .. } = self;
         let mut any = false;
         surfaces.start(wave.rays.len);
-        nearest_hits::<L, RICH>(
+        nearest_hits::<L, RICH, MESH>(
             scene,
             &wave.rays,
             || Bounds::of::<L>(&wave.rays),

@@ -1,7 +1,8 @@
 //! The two queries over a compiled scene: [`intersect()`], the nearest hit, and [`occluded()`], any hit.
 //!
-//! Both work on a [`RayBatch`]: its bounds leave out what none of its rays can meet, what depends on a common origin
-//! is computed once, then the packets go through the rest one by one.
+//! Both work on a [`RayBatch`]. In a small scene its bounds leave out what none of its rays can meet, what depends on a
+//! common origin is computed once, then the packets go through the rest one by one (`candidates`, `packets`). In a
+//! larger one groups of its rays, or single ones, find their way through a tree of boxes (`tree`).
 
 mod bounds;
 mod boxes;
@@ -15,6 +16,7 @@ pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use candidates::Candidates;
 pub use single::{Hit, Probe, intersect_one, occluded_one};
 
+use crate::geometry::Primitives;
 use crate::math::{LaneMask, Lanes};
 use crate::scene::Scene;
 pub(crate) use bounds::{Bounds, Extent, Span};
@@ -26,19 +28,20 @@ pub(crate) use query::Nearest;
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
 /// rays of the batch, unless its own origin is NaN. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
-    match scene.plan.rare {
-        false => nearest_of::<L, false>(scene, rays, hits, scratch),
-        true => nearest_of::<L, true>(scene, rays, hits, scratch),
+    match (scene.plan.rare, scene.triangles.is_empty()) {
+        (false, true) => nearest_of::<L, false, false>(scene, rays, hits, scratch),
+        (false, false) => nearest_of::<L, false, true>(scene, rays, hits, scratch),
+        (true, _) => nearest_of::<L, true, true>(scene, rays, hits, scratch),
     }
 }
 
-fn nearest_of<L: Lanes, const RARE: bool>(
+fn nearest_of<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
     hits: &mut HitBatch,
     scratch: &mut Candidates,
 ) {
-    nearest_hits::<L, RARE>(
+    nearest_hits::<L, RARE, MESH>(
         scene,
         rays,
         || Bounds::of::<L>(rays),
@@ -56,14 +59,20 @@ fn nearest_of<L: Lanes, const RARE: bool>(
 ///
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
-    match scene.plan.rare {
-        false => any_of::<L, false>(scene, rays, blocked, scratch),
-        true => any_of::<L, true>(scene, rays, blocked, scratch),
+    match (scene.plan.rare, scene.triangles.is_empty()) {
+        (false, true) => any_of::<L, false, false>(scene, rays, blocked, scratch),
+        (false, false) => any_of::<L, false, true>(scene, rays, blocked, scratch),
+        (true, _) => any_of::<L, true, true>(scene, rays, blocked, scratch),
     }
 }
 
-fn any_of<L: Lanes, const RARE: bool>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
-    any_hits::<L, RARE>(
+fn any_of<L: Lanes, const RARE: bool, const MESH: bool>(
+    scene: &Scene,
+    rays: &RayBatch,
+    blocked: &mut Blocked,
+    scratch: &mut Candidates,
+) {
+    any_hits::<L, RARE, MESH>(
         scene,
         rays,
         || Bounds::of::<L>(rays),
@@ -73,9 +82,10 @@ fn any_of<L: Lanes, const RARE: bool>(scene: &Scene, rays: &RayBatch, blocked: &
     );
 }
 
-/// [`intersect()`] for rays whose bounds are known, `RARE` where the plan is (it may be without that); `take` gets every packet's answer while it is in registers.
+/// [`intersect()`] for rays whose bounds may be known; they are only asked for where they are needed. `RARE` where the
+/// plan is (it may be without that), `MESH` where there are triangles or that is so; `take` gets every packet's answer while it is in registers.
 #[inline(always)]
-pub(crate) fn nearest_hits<L: Lanes, const RARE: bool>(
+pub(crate) fn nearest_hits<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
     bounds: impl FnOnce() -> Option<Bounds>,
@@ -87,14 +97,14 @@ pub(crate) fn nearest_hits<L: Lanes, const RARE: bool>(
     }
     let Some(bounds) = bounds() else { return };
     match scratch.gather::<L>(scene, &bounds) {
-        View::Shared(candidates) => packets::nearest::<_, L, RARE>(scene, candidates, rays, take),
-        View::Apart(candidates) => packets::nearest::<_, L, RARE>(scene, candidates, rays, take),
+        View::Shared(candidates) => packets::nearest::<_, L, RARE, MESH>(scene, candidates, rays, take),
+        View::Apart(candidates) => packets::nearest::<_, L, RARE, MESH>(scene, candidates, rays, take),
     }
 }
 
 /// [`occluded()`] in the same way.
 #[inline(always)]
-pub(crate) fn any_hits<L: Lanes, const RARE: bool>(
+pub(crate) fn any_hits<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
     bounds: impl FnOnce() -> Option<Bounds>,
@@ -106,7 +116,7 @@ pub(crate) fn any_hits<L: Lanes, const RARE: bool>(
     }
     let Some(bounds) = bounds() else { return };
     match scratch.gather::<L>(scene, &bounds) {
-        View::Shared(candidates) => packets::any::<_, L, RARE>(scene, candidates, rays, take),
-        View::Apart(candidates) => packets::any::<_, L, RARE>(scene, candidates, rays, take),
+        View::Shared(candidates) => packets::any::<_, L, RARE, MESH>(scene, candidates, rays, take),
+        View::Apart(candidates) => packets::any::<_, L, RARE, MESH>(scene, candidates, rays, take),
     }
 }

@@ -32,9 +32,15 @@ impl<'a, F: Form> Found<'a, F> {
 
     /// Shows every candidate to the query, in rising order of ids, until it is done.
     ///
-    /// `RARE` says that there is more than planes, spheres and triangles that are seen from both sides.
+    /// `MESH` says that there are triangles, `RARE` that there is more than those, planes and spheres, or something seen
+    /// from one side alone.
     #[inline(always)]
-    fn visit<L: Lanes, Q: Query<L>, const RARE: bool>(&self, scene: &Scene, packet: Packet<L>, query: &mut Q) {
+    fn visit<L: Lanes, Q: Query<L>, const RARE: bool, const MESH: bool>(
+        &self,
+        scene: &Scene,
+        packet: Packet<L>,
+        query: &mut Q,
+    ) {
         each::<F, Planes, L, Q, RARE>(self.planes, &packet, query);
         if query.done() {
             return;
@@ -43,7 +49,9 @@ impl<'a, F: Form> Found<'a, F> {
         if query.done() {
             return;
         }
-        each::<F, Triangles, L, Q, RARE>(self.triangles, &packet, query);
+        if MESH {
+            each::<F, Triangles, L, Q, RARE>(self.triangles, &packet, query);
+        }
         if RARE && !query.done() {
             self.lists.visit_rare(scene, &packet, query);
         }
@@ -129,7 +137,7 @@ fn each_boxed<F: Form, K: Primitives, L: Lanes, Q: Query<L>>(
 
 /// Gives `take` the nearest hits of every packet with an active ray: its first ray, the active lanes and the answer.
 #[inline(always)]
-pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
+pub fn nearest<F: Form, L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
@@ -144,7 +152,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
         }
         // Nothing lies before −∞, so inactive lanes take no hit.
         let mut query = Nearest::new(t_max.select(active, L::splat(f32::NEG_INFINITY)));
-        candidates.visit::<L, _, RARE>(scene, packet::<L, RARE>(rays, at), &mut query);
+        candidates.visit::<L, _, RARE, MESH>(scene, packet::<L, RARE>(rays, at), &mut query);
         take(at, active, &query);
     }
 }
@@ -152,7 +160,7 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool>(
 /// Gives `take` the blocked lanes of every packet with an active ray: its first ray, the active lanes, the blocked
 /// ones (inactive lanes may be either).
 #[inline(always)]
-pub fn any<F: Form, L: Lanes, const RARE: bool>(
+pub fn any<F: Form, L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
@@ -166,7 +174,7 @@ pub fn any<F: Form, L: Lanes, const RARE: bool>(
             continue;
         }
         let mut query = Any { settled: !active, t_max };
-        candidates.visit::<L, _, RARE>(scene, packet::<L, RARE>(rays, at), &mut query);
+        candidates.visit::<L, _, RARE, MESH>(scene, packet::<L, RARE>(rays, at), &mut query);
         take(at, active, query.settled);
     }
 }
