@@ -1,6 +1,7 @@
 //! From a [`Description`] to the arrays that are traced.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use glam::Vec3;
 
@@ -38,6 +39,8 @@ pub struct Scene {
     pub boxes: Vec<Aabb>,
     /// The tree of all but the planes, where the plan asks for one.
     pub bvh: Option<Bvh>,
+    /// How long it took to build that tree; 0 without one.
+    pub build_time: Duration,
     /// Materials, by index.
     pub materials: Vec<Material>,
     /// Transparent bodies by number; 0 is what is around them all.
@@ -211,6 +214,7 @@ pub fn compile_as(description: &Description, structure: Option<Structure>) -> Re
         first,
         boxes,
         bvh: None,
+        build_time: Duration::ZERO,
         materials: description.materials.clone(),
         bodies,
         body_of,
@@ -221,7 +225,9 @@ pub fn compile_as(description: &Description, structure: Option<Structure>) -> Re
         plan,
     };
     if scene.plan.structure == Structure::Tree {
+        let started = Instant::now();
         scene.bvh = Some(Bvh::build(&Bounded(&scene)));
+        scene.build_time = started.elapsed();
     }
     Ok(scene)
 }
