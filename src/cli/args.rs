@@ -85,7 +85,8 @@ impl Threads {
     pub fn start(self) -> Result<usize, Failure> {
         if let Some(threads) = self.threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
-            pool.build_global().map_err(|e| Failure::runtime(format!("cannot start {}: {e}", count(threads.into()))))?;
+            pool.build_global()
+                .map_err(|e| Failure::runtime(format!("cannot start {}: {e}", count(threads.into()))))?;
         }
         Ok(rayon::current_num_threads())
     }
