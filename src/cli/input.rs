@@ -30,7 +30,7 @@ const MANY: usize = 500_000;
 
 /// Compiles what [`load`] read from `name`.
 pub fn compile(name: &str, description: &Description) -> Result<Scene, Failure> {
-    let primitives = description.primitives();
+    let primitives = description.primitives() - description.planes.len();
     let _spinner = (primitives > MANY).then(|| Spinner::new(format!("building the tree of {primitives} primitives")));
     scene::compile(description).map_err(|e| Failure::input(format!("{name}: {e}")))
 }

@@ -35,7 +35,8 @@ pub struct Scene {
     pub fractals: Fractals,
     /// The first id of every kind.
     pub first: First,
-    /// Boxes around all from the quads on; see [`Scene::bounds`].
+    /// Boxes around all from the quads on, in the order of their ids: hits count only within these, widened by 32 ε of
+    /// their farthest corner's distance.
     pub boxes: Vec<Aabb>,
     /// The tree of all but the planes, where the plan asks for one.
     pub bvh: Option<Bvh>,
