@@ -63,7 +63,8 @@ fn check(side: usize, brute: [usize; 2]) {
     assert!((200..3000).contains(&dark), "part of the picture is shadow and sky, part is lit: {dark} pixels are dark");
     let without = compiled(&description, Structure::None);
     let [with, without] = [&scene, &without].map(|scene| film_bits(&picture(&description, scene, Kernel::X8, brute)));
-    assert_eq!(with, without);
+    let differ = with.iter().zip(&without).filter(|(a, b)| a != b).count();
+    assert!(differ == 0 && with.len() == without.len(), "{differ} of {} values differ without the tree", with.len());
 }
 
 /// A rough square from −1 to 1, seen from a corner, with a light low enough for hills to cast shadows.
