@@ -79,14 +79,22 @@ pub struct Threads {
 impl Threads {
     /// Makes rayon's pool as large as asked for, and says how many threads it has.
     ///
-    /// It is the global pool, so that the calling thread stays the main one, where windows have to live.
+    /// It is the global pool, so that the calling thread stays the main one, where windows have to live. It has to come
+    /// before anything that computes in parallel, such as compiling a scene: that would start the pool at its default
+    /// size. Reading a scene does not, so that what is wrong with the input can be said before what is wrong here.
     pub fn start(self) -> Result<usize, Failure> {
         if let Some(threads) = self.threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
-            pool.build_global().map_err(|e| Failure::runtime(format!("cannot start {threads} threads: {e}")))?;
+            pool.build_global()
+                .map_err(|e| Failure::runtime(format!("cannot start {}: {e}", count(threads.into()))))?;
         }
         Ok(rayon::current_num_threads())
     }
+}
+
+/// So many threads, in words.
+pub fn count(threads: usize) -> String {
+    if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") }
 }
 
 /// Where `--json FILE|-` goes, checked before the work starts.

@@ -2,7 +2,7 @@
 
 use super::args::{DEFAULT_SCENE, Json, Size, Threads};
 use super::{Failure, input, print};
-use raypacket::measure::bench::{self, BenchError};
+use raypacket::measure::bench;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -29,12 +29,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::input("--rays goes with one scene, as its rays are made for one"));
     }
     let json = args.json.as_deref().map(Json::new).transpose()?;
+    let threads = args.threads.start();
     let scenes = input::load_all(&args.scenes)?;
-    args.threads.start()?;
+    threads?;
     let options = bench::Options { size: [args.size.width, args.size.height], rays: args.rays.clone() };
     let mut reports = Vec::new();
-    for (name, scene) in args.scenes.iter().zip(&scenes) {
-        let report = bench::run(scene, &options).map_err(|e| failure(name, &e))?;
+    for (name, description) in args.scenes.iter().zip(&scenes) {
+        let scene = input::compile(name, description)?;
+        // The message names the ray file.
+        let report = bench::run(description, &scene, &options).map_err(Failure::input)?;
         if !matches!(json, Some(Json::Stdout)) {
             print::line(&report)?;
         }
@@ -48,12 +51,4 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::runtime(format!("the answers do not agree with the reference: {}", wrong.join(", "))))
-}
-
-fn failure(scene: &str, error: &BenchError) -> Failure {
-    match error {
-        BenchError::Scene(invalid) => Failure::input(format!("{scene}: {invalid}")),
-        // It names its file.
-        BenchError::Rays(rays) => Failure::input(rays),
-    }
 }

@@ -1,8 +1,8 @@
 //! `raypacket info`: what a scene holds and how it will be traced.
 
-use super::args::DEFAULT_SCENE;
+use super::args::{DEFAULT_SCENE, count};
 use super::{Failure, input, print};
-use raypacket::scene::{Description, Plan, Sky, one_line};
+use raypacket::scene::{Description, Scene, Sky, one_line};
 use std::fmt;
 
 #[derive(clap::Args)]
@@ -15,15 +15,15 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let description = input::load(&args.scene)?;
     let scene = input::compile(&args.scene, &description)?;
-    print::line(Summary(&description, &scene.plan))
+    print::line(Summary(&description, &scene))
 }
 
 /// A scene in a few lines.
-struct Summary<'a>(&'a Description, &'a Plan);
+struct Summary<'a>(&'a Description, &'a Scene);
 
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(scene, plan) = self;
+        let Self(scene, compiled) = self;
         let (camera, settings) = (&scene.camera, &scene.settings);
         let fall_off = if settings.attenuation { "power / (4 pi r^2)" } else { "power at any distance" };
         writeln!(f, "scene       {}", one_line(&scene.name))?;
@@ -42,11 +42,24 @@ impl fmt::Display for Summary<'_> {
             "camera      eye {}, look at {}, up {}, fov {} degrees",
             camera.eye, camera.look_at, camera.up, camera.fov
         )?;
-        writeln!(f, "plan")?;
-        let plan = plan.to_string();
-        let lines: Vec<String> = plan.lines().map(|line| format!("  {line}")).collect();
-        f.write_str(&lines.join("\n"))
+        f.write_str("plan")?;
+        for line in compiled.plan.to_string().lines() {
+            write!(f, "\n  {line}")?;
+            if line.starts_with("structure") {
+                tree(compiled, f)?;
+            }
+        }
+        Ok(())
     }
+}
+
+/// What the tree is like, below the reason that there is one.
+fn tree(scene: &Scene, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let Some(bvh) = &scene.bvh else { return Ok(()) };
+    let (stats, ms) = (bvh.stats(), scene.build_time.as_secs_f64() * 1e3);
+    write!(f, "\n  tree        {stats}")?;
+    let threads = count(rayon::current_num_threads());
+    write!(f, "\n  build       {ms:.1} ms with {threads}, {} bytes", stats.bytes)
 }
 
 /// The numbers of primitives by kind, of those that there are.

@@ -1,6 +1,7 @@
 //! Scenes by name or path.
 
-use super::{Failure, progress::Progress};
+use super::Failure;
+use super::progress::{Progress, Spinner};
 use raypacket::scene::{self, Description, Scene};
 
 /// Mesh files from this length on get a bar.
@@ -24,8 +25,13 @@ pub fn load_all(names: &[String]) -> Result<Vec<Description>, Failure> {
     names.iter().map(|name| load(name)).collect()
 }
 
+/// Scenes of more primitives than this may take a second to build a tree of.
+const MANY: usize = 500_000;
+
 /// Compiles what [`load`] read from `name`.
 pub fn compile(name: &str, description: &Description) -> Result<Scene, Failure> {
+    let primitives = description.primitives() - description.planes.len();
+    let _spinner = (primitives > MANY).then(|| Spinner::new(format!("building the tree of {primitives} primitives")));
     scene::compile(description).map_err(|e| Failure::input(format!("{name}: {e}")))
 }
 

@@ -1,4 +1,4 @@
-//! A bar for work that takes its time.
+//! A bar for work that takes its time, and a spinner for work that cannot say how far it is.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Steps of the bar.
 const STEPS: u64 = 1000;
+/// Between two pictures of a spinner.
+const TURN: Duration = Duration::from_millis(100);
 
 /// A progress bar on standard error, if that is a terminal; it appears when the work has taken a second, and
 /// is gone when this is dropped.
@@ -46,5 +48,24 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// A message with something that turns beside it on standard error, if that is a terminal; gone when this is dropped.
+pub struct Spinner(ProgressBar);
+
+impl Spinner {
+    pub fn new(message: String) -> Self {
+        // Indicatif itself draws on nothing but terminals.
+        let spinner = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr()).with_message(message);
+        spinner.set_style(ProgressStyle::default_spinner());
+        spinner.enable_steady_tick(TURN);
+        Self(spinner)
+    }
+}
+
+impl Drop for Spinner {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
     }
 }

@@ -1,6 +1,6 @@
 //! `raypacket render`: a picture into a file.
 
-use super::args::{DEFAULT_SCENE, Size, Threads};
+use super::args::{DEFAULT_SCENE, Size, Threads, count};
 use super::progress::Progress;
 use super::{Failure, input, print};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -74,10 +74,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let Some(format) = Format::of(&args.output) else {
         return Err(Failure::input(format!("{}: a picture is a .png or .exr file", args.output.display())));
     };
+    let threads = args.threads.start();
     let description = input::load(&args.scene)?;
-    let scene = input::compile(&args.scene, &description)?;
     let target = Target::new(&args.output).map_err(Failure::input)?;
-    let threads = args.threads.start()?;
+    let threads = threads?;
+    let scene = input::compile(&args.scene, &description)?;
 
     let started = Instant::now();
     let picture = match args.aov {
@@ -91,12 +92,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     saved.map_err(Failure::runtime)?;
     print::line(format_args!(
-        "{}: {}, {} pixels, kernel {}, {threads} thread{}, {seconds:.3} s",
+        "{}: {}, {} pixels, kernel {}, {}, {seconds:.3} s",
         args.output.display(),
         description.name,
         args.size,
         args.kernel.name(),
-        if threads == 1 { "" } else { "s" },
+        count(threads),
     ))
 }
 

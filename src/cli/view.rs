@@ -33,9 +33,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(path) = &args.screenshot {
         check_screenshot(path)?;
     }
+    let threads = args.threads.start();
     let description = input::load(&args.scene)?;
+    threads?;
     let scene = input::compile(&args.scene, &description)?;
-    args.threads.start()?;
     let options = viewer::Options {
         size: (args.size.width, args.size.height),
         kernel: args.kernel,

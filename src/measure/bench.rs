@@ -11,7 +11,7 @@ use super::rays::{self, RayFileError};
 use super::streams::Streams;
 use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa};
 use crate::render::{Camera, Kernel, render_display, with_lanes};
-use crate::scene::{Description, Invalid, Scene, compile};
+use crate::scene::{Description, Scene};
 use crate::trace::{Candidates, intersect, occluded};
 
 /// Timed runs of each kernel: as many as fit the budget, within these bounds.
@@ -56,6 +56,22 @@ pub struct Measured {
     pub mrays_best: f64,
 }
 
+/// The tree of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Build {
+    /// How long it took to build, in milliseconds, once.
+    pub ms: f64,
+    /// The memory of its nodes and blocks.
+    pub bytes: usize,
+}
+
+impl Build {
+    fn of(scene: &Scene) -> Option<Self> {
+        let bvh = scene.bvh.as_ref()?;
+        Some(Self { ms: scene.build_time.as_secs_f64() * 1e3, bytes: bvh.bytes() })
+    }
+}
+
 /// What [`run`] found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
@@ -69,22 +85,14 @@ pub struct Report {
     pub isa: &'static str,
     /// Whether the answers agreed: all kernels with each other to the bit, and a smaller picture with the reference.
     pub valid: bool,
+    /// The tree; it is not part of the times below.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub build: Option<Build>,
     /// By query, then by kernel.
     pub results: Vec<Measured>,
 }
 
-/// Why there is nothing to report.
-#[derive(Debug, thiserror::Error)]
-pub enum BenchError {
-    /// The scene is not sound.
-    #[error(transparent)]
-    Scene(#[from] Invalid),
-    /// The ray file is not sound.
-    #[error(transparent)]
-    Rays(#[from] RayFileError),
-}
-
-/// Measures a scene in the caller's rayon pool.
+/// Measures a scene in the caller's rayon pool; `scene` is what [`crate::scene::compile`] made of `description`.
 ///
 /// Timed are the calls of the query for a whole set of rays, batch by batch, from the batch's bounds to the stored
 /// answer. The rays of a picture are a sample that stays in the cache, as a tile's do when it is rendered; those of a
@@ -92,13 +100,12 @@ pub enum BenchError {
 /// turns, so that a drift of the machine hits all alike; the first turn warms up and is not counted.
 ///
 /// # Errors
-/// [`BenchError`] when the scene or the ray file is not sound.
-pub fn run(description: &Description, options: &Options) -> Result<Report, BenchError> {
-    let scene = compile(description)?;
+/// [`RayFileError`] when the ray file is not sound.
+pub fn run(description: &Description, scene: &Scene, options: &Options) -> Result<Report, RayFileError> {
     let mut results = Vec::new();
     let mut same = true;
     let mut measure = |query: String, shadow: bool, batches: &[RayBatch]| {
-        let (measured, agree) = time_query(&scene, &query, shadow, batches);
+        let (measured, agree) = time_query(scene, &query, shadow, batches);
         results.extend(measured);
         same &= agree;
     };
@@ -109,12 +116,12 @@ pub fn run(description: &Description, options: &Options) -> Result<Report, Bench
     } else {
         let [width, height] = options.size;
         let camera = Camera::new(&description.camera, width as f32 / height as f32);
-        let streams = Streams::of(&scene, &camera, width, height);
+        let streams = Streams::of(scene, &camera, width, height);
         measure("primary".into(), false, &streams.primary);
         measure("shadow".into(), true, &streams.shadow);
         measure("reflection".into(), false, &streams.reflection);
         measure("refraction".into(), false, &streams.refraction);
-        results.extend(time_frames(&scene, &camera, options.size));
+        results.extend(time_frames(scene, &camera, options.size));
     }
     Ok(Report {
         scene: description.name.clone(),
@@ -122,6 +129,7 @@ pub fn run(description: &Description, options: &Options) -> Result<Report, Bench
         threads: rayon::current_num_threads(),
         isa: isa(),
         valid: same && agrees_with_reference(description),
+        build: Build::of(scene),
         results,
     })
 }
@@ -263,6 +271,9 @@ impl fmt::Display for Report {
         let valid = if self.valid { "answers agree" } else { "ANSWERS DISAGREE" };
         let threads = if self.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", self.threads) };
         writeln!(f, "{}  {w}×{h}  {threads}  {}  {valid}", self.scene, self.isa)?;
+        if let Some(Build { ms, bytes }) = self.build {
+            writeln!(f, "tree: built in {ms:.2} ms, {bytes} bytes")?;
+        }
         write!(f, "{:12} {:6} {:>10} {:>10} {:>12} {:>12}", "query", "kernel", "rays", "hits", "Mrays/s", "best")?;
         for r in &self.results {
             write!(

@@ -85,6 +85,15 @@ radius = 1.0
 material = "red"
 "#;
 
+/// Adds `many.toml` to a folder: [`GOOD`] and 200 more spheres, which are worth a tree.
+fn add_many(folder: &Path) {
+    let ball = |i: usize| {
+        let [x, z] = [i % 20, i / 20].map(|i| i as f32 * 0.3 - 3.0);
+        format!("[[sphere]]\ncenter = [{x:?}, 2.5, {z:?}]\nradius = 0.1\nmaterial = \"red\"\n")
+    };
+    fs::write(folder.join("many.toml"), GOOD.to_owned() + &(0..200).map(ball).collect::<String>()).unwrap();
+}
+
 #[test]
 fn scenes_lists_the_built_in_ones() {
     let folder = folder();
@@ -113,6 +122,46 @@ fn info_tells_what_a_scene_holds() {
     assert!(run.stdout.contains(", m21 and 1 more\n"), "{}", run.stdout);
     let run = raypacket(folder.path(), "info textures").good();
     assert!(run.stdout.contains("\ntextures    2: 512 x 256, 256 x 256\n"), "{}", run.stdout);
+}
+
+#[test]
+fn info_tells_what_the_tree_is_like() {
+    let folder = folder();
+    add_many(folder.path());
+    let text = raypacket(folder.path(), "info many.toml").good().stdout;
+    let line = |key: &str| text.lines().find_map(|line| line.strip_prefix(key)).unwrap_or_else(|| panic!("{text}"));
+    let (tree, build) = (line("  tree "), line("  build "));
+    for words in [" nodes with ", " blocks of triangles, spheres, others ", " bytes a primitive, depth ", "SAH cost "] {
+        assert!(tree.contains(words), "no {words:?} in {tree}");
+    }
+    // The number before the words.
+    let number = |line: &str, words: &str| -> f64 {
+        let before = line.split(words).next().and_then(|before| before.split_whitespace().last());
+        before.and_then(|n| n.parse().ok()).unwrap_or_else(|| panic!("no number before {words:?} in {line}"))
+    };
+    assert!(number(build, " ms with ") >= 0.0);
+    let (bytes, each) = (number(build, " bytes"), number(tree, " bytes a primitive"));
+    assert!(bytes > 200.0 * 20.0 && (bytes / 201.0 - each).abs() <= 0.5, "{tree}\n{build}");
+    let without = raypacket(folder.path(), "info good.toml").good().stdout;
+    assert!(!without.contains("\n  tree ") && !without.contains("\n  build "), "{without}");
+}
+
+/// Compiling a scene with a tree computes in parallel, and must not start the pool before `--threads` does.
+#[test]
+fn threads_are_started_before_a_tree_is_built() {
+    let folder = folder();
+    add_many(folder.path());
+    for (threads, words) in [(1, ", 1 thread, "), (3, ", 3 threads, ")] {
+        let run = raypacket(folder.path(), &format!("render many.toml --threads {threads} --size 9x5 -o a.png")).good();
+        assert!(run.stdout.contains(words), "{}", run.stdout);
+    }
+    fs::remove_file(folder.path().join("a.png")).unwrap();
+    raypacket(folder.path(), "view many.toml --threads 1").failed(1, &["display"]);
+    for command in ["render -o a.png", "bench", "view", ""] {
+        raypacket(folder.path(), &format!("{command} --threads 2 no.toml")).failed(2, &["no.toml"]);
+    }
+    raypacket(folder.path(), "render many.toml -o no/a.png --threads 2").failed(2, &["no/a.png"]);
+    assert_eq!(names(folder.path()), ["good.toml", "many.toml"]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `raypacket bench` and `raypacket verify`, and the JSON that other programs read.
 
-use super::{folder, names, raypacket};
+use super::{add_many, folder, names, raypacket};
 use serde_json::Value;
 use std::fs;
 
@@ -81,6 +81,28 @@ fn bench_of_a_ray_file() {
             assert!((result["sum_t"].as_f64().unwrap() - sum).abs() < 1e-4, "{result}");
         }
     }
+}
+
+#[test]
+fn bench_tells_what_the_tree_took() {
+    let folder = folder();
+    add_many(folder.path());
+    let ray: [f32; 8] = [0.0, 1.0, 5.0, 0.0, 0.0, 0.0, -1.0, 1e30];
+    fs::write(folder.path().join("one.primary"), ray.map(f32::to_le_bytes).as_flattened()).unwrap();
+    let args = "--size 32x16 --threads 1 --rays one.primary --json a.json";
+    let bench = |scene: &str| {
+        let text = raypacket(folder.path(), &format!("bench {scene} {args}")).good().stdout;
+        (text, parse(&fs::read_to_string(folder.path().join("a.json")).unwrap()))
+    };
+    let (text, report) = bench("many.toml");
+    check_bench(&report, "many", 1);
+    let (ms, bytes) = (&report["build"]["ms"], &report["build"]["bytes"]);
+    assert!(ms.as_f64().is_some_and(|ms| ms > 0.0), "{report}");
+    assert!(bytes.as_u64().is_some_and(|bytes| bytes > 200 * 20), "{report}");
+    let line = text.lines().find(|line| line.starts_with("tree: built in "));
+    assert!(line.is_some_and(|line| line.ends_with(&format!(" ms, {bytes} bytes"))), "{text}");
+    let (text, report) = bench("good.toml");
+    assert!(report.get("build").is_none() && !text.contains("tree"), "there is none: {report} {text}");
 }
 
 #[test]

@@ -3,8 +3,10 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod field;
 mod found;
 mod pair;
+mod pictures;
 mod rays;
 mod scenes;
 
