@@ -63,9 +63,10 @@
 //! - **The reference shares nothing but the description**, so that no fault of a kernel hides in its own check.
 //! - **At equal distance the lowest primitive id wins.** Ids count through the kinds in the order of
 //!   [`scene::Scene`]'s fields: planes, spheres, triangles, quads and so on.
-//! - **The tree loses no hit.** Where the plan has one ([`bvh`]), answers are those of testing everything, to the bit: its
-//!   boxes are wider than what rounding can do, and all hits but spheres', whose test errs like a slightly larger sphere,
-//!   count only within a box of the primitive's own. Boxes are always tested eight at a time, at every width.
+//! - **The tree loses no hit.** Where the plan has one ([`bvh`]), answers for rays of finite numbers are those of
+//!   testing everything, to the bit: its boxes are wider than what rounding can do, and all hits but spheres', whose
+//!   test errs like a slightly larger sphere, count only within a box of the primitive's own. Boxes are always tested
+//!   eight at a time, at every width.
 //! - **[`math::Lanes::mul_add`] is fused on every width or on none**: fused in a build with FMA instructions, two
 //!   roundings in a build without. So two builds may differ, each within the bounds that
 //!   [`measure::verify`] checks.

@@ -74,7 +74,8 @@ pub enum Kind {
 pub struct Child(u32);
 
 impl Child {
-    /// No child. Its box is empty, so that no ray gets to ask what it is.
+    /// No child. Its box is empty; a ray with an infinite margin may ask nonetheless, and finds that no block has this
+    /// index.
     pub const EMPTY: Self = Self(u32::MAX);
 
     /// Node `i`.
@@ -102,7 +103,7 @@ impl Child {
         Self(kind << 30 | i as u32)
     }
 
-    /// What it is; nothing sensible for [`Child::EMPTY`].
+    /// What it is; [`Kind::Others`] for [`Child::EMPTY`], with an index that no block has.
     #[inline(always)]
     pub fn kind(self) -> Kind {
         match self.0 >> 30 {
@@ -273,8 +274,8 @@ pub struct Bvh {
     pub bounds: Aabb,
     /// The most nodes on a way from the root to a block; at most [`MOST_DEPTH`].
     pub depth: usize,
-    /// How large blocks are: the mean of their largest extents, weighted by area, without those of an eighth of the whole
-    /// and more; an eighth of the whole when there are no others.
+    /// How large blocks are: the mean of their largest extents, weighted by area, without those of an eighth of the
+    /// whole and more; an eighth of the whole when there are no others.
     pub grain: f32,
 }
 

@@ -28,6 +28,10 @@ impl<L: Lanes> From<Vec3<L>> for Aim<L> {
     }
 }
 
+/// By how much of its farthest corner's distance along any axis a box is made wider that holds a primitive's hits: 32 ε.
+/// The margin of the tree's boxes ([`crate::trace`]) rests on it.
+pub const PAD: f32 = 1.0 / (1 << 19) as f32;
+
 /// Where rays from the origin enter and leave the closed box from `low` to `high`; they meet it where the first is at
 /// most the second.
 ///

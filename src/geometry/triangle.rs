@@ -230,14 +230,8 @@ impl Primitives for Triangles {
         if !SIDED || seen.sides == Sides::Both {
             return watertight(seen, aim, t_min, t_max);
         }
-        // From the front the ray runs against N.
-        let along = seen.n.dot(aim.direction);
-        let there = match seen.sides {
-            Sides::Front => along.lt(L::zero()),
-            _ => along.gt(L::zero()),
-        };
         let (t, inside) = watertight(seen, aim, t_min, t_max)?;
-        let inside = inside & there;
+        let inside = inside & there(seen.sides, seen.n.dot(aim.direction));
         inside.any().then_some((t, inside))
     }
 
@@ -313,7 +307,7 @@ pub fn distance<L: Lanes>(
     let along = n.dot(direction);
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     let Vec3 { x, y, z } = high.max(-low);
-    let pad = x.max(y).max(z) * L::splat(1.0 / (1 << 19) as f32);
+    let pad = x.max(y).max(z) * L::splat(face::PAD);
     let pad = Vec3::new(pad, pad, pad);
     let (low, high) = (low - pad, high + pad);
     let t = height / along;
@@ -333,6 +327,16 @@ pub fn distance<L: Lanes>(
 fn within<L: Lanes>(low: Vec3<L>, high: Vec3<L>, direction: Vec3<L>, t: L) -> (L, L::Mask) {
     let (enter, exit) = between(low, high, &face::Aim::new(direction));
     (t.max(enter).min(exit), enter.le(exit))
+}
+
+/// Where a triangle is there for rays that run `along` N: from the front against it.
+#[inline(always)]
+pub fn there<L: Lanes>(sides: Sides, along: L) -> L::Mask {
+    match sides {
+        Sides::Both => L::zero().le(L::zero()),
+        Sides::Front => along.lt(L::zero()),
+        Sides::Back => along.gt(L::zero()),
+    }
 }
 
 /// What [`moller_trumbore`] needs of a triangle and of the rays' origin.

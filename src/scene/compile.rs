@@ -245,6 +245,7 @@ impl Source for Bounded<'_> {
         let (Self(scene), id) = (self, self.id(i));
         if id < scene.first.triangles {
             let (center, radius) = self.sphere(i);
+            // Rounded to nearest: the traversal's margin covers it.
             return Aabb { min: center - radius, max: center + radius };
         }
         if id < scene.first.quads {

@@ -29,8 +29,8 @@ pub enum Structure {
     Tree,
 }
 
-/// The number of primitives from which on a tree is faster, spheres counted once and others with bounds four times: lists
-/// test spheres eight at a time before anything else.
+/// From which weight on a tree is faster: a sphere counts once, all else with bounds four times (measured). Lists are
+/// good at spheres, whose balls are culled a packet's width at a time.
 const TREE_FROM: usize = 128;
 
 /// What the tracer will do for a scene, each with its reason; what is absent costs nothing.
@@ -193,13 +193,15 @@ impl fmt::Display for Plan {
         match self.structure {
             Structure::None => writeln!(
                 f,
-                "structure   none: every batch of rays tests all that its origin ball and direction cone may meet; a tree \
-                 pays from {TREE_FROM} spheres or {} others on",
+                "structure   none: every batch of rays tests all that its bounds do not rule out; a tree pays from \
+                 {TREE_FROM} spheres or {} others on",
                 TREE_FROM / 4
             )?,
             Structure::Tree => writeln!(
                 f,
-                "structure   tree: groups of rays that run together descend behind a beam around them, others one by one"
+                "structure   tree, as {TREE_FROM} spheres or {} others pay for one: groups of rays that run together \
+                 descend behind a beam around them, others one by one",
+                TREE_FROM / 4
             )?,
         }
         match (self.waves, self.mirrors, self.glasses) {

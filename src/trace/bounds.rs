@@ -37,7 +37,8 @@ impl Bounds {
         let size = a.max_abs().max(b.max_abs()).max(c.max_abs());
         if !self.shared {
             let reach = triangles.corners(i)[0].abs().max_element();
-            return self.turn_away(seen.n, seen.height, 2.0 * (reach + size) * seen.n.max_abs());
+            // A hit may lie 3 · 32 ε of the size off the plane: `distance` keeps it in a box.
+            return self.turn_away(seen.n, seen.height, 8.0 * (reach + size) * seen.n.max_abs());
         }
         // The test's own rounding, in units of the products that it compares: below 3e-6 (see `watertight`).
         const SLACK: f32 = 1e-5;

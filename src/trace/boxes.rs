@@ -1,19 +1,16 @@
 //! Hits of kinds whose tests say little about their rounding count only within the primitive's box.
 //!
 //! Next to a quad's edge a grazing ray may be off by any number of ε, and so may the distance; a torus, cone or
-//! fractal has its own bounds. A box around the primitive, wider by 32 ε of its farthest corner's distance on all sides,
+//! fractal errs by bounds of its own. A box around the primitive, wider by 32 ε of its farthest corner's distance on all sides,
 //! holds all true hits; where a ray misses it there is none, and a distance is kept within it. It also spares most of
 //! these tests, which cost more than it. A tree of such boxes then loses no hit.
 
 use crate::bvh::Aabb;
-use crate::geometry::face::{Aim, between};
+use crate::geometry::face::{Aim, PAD, between};
 use crate::math::{LaneMask, Lanes, Vec3};
 use crate::scene::Scene;
 
 use super::packets::Packet;
-
-/// 32 ε.
-const PAD: f32 = 1.0 / (1 << 19) as f32;
 
 /// A packet before the boxes of a scene.
 pub struct Boxes<'a, L> {

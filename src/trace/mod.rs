@@ -26,7 +26,7 @@ pub(crate) use query::Nearest;
 /// The nearest hit of every active ray, in packets of `L::WIDTH`.
 ///
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
-/// rays of the batch, unless its own origin is NaN. `hits` of inactive rays are left as they were.
+/// rays of the batch, unless it has NaN or infinite components. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
     match (scene.plan.rare, scene.triangles.is_empty()) {
         (false, true) => nearest_of::<L, false, false>(scene, rays, hits, scratch),
@@ -82,8 +82,9 @@ fn any_of<L: Lanes, const RARE: bool, const MESH: bool>(
     );
 }
 
-/// [`intersect()`] for rays whose bounds may be known; they are only asked for where they are needed. `RARE` where the
-/// plan is (it may be without that), `MESH` where there are triangles or that is so; `take` gets every packet's answer while it is in registers.
+/// [`intersect()`] for rays whose bounds may be known; they are only asked for where they are needed. `RARE` must be
+/// true where the plan is rare, `MESH` where that is or there are triangles; both may be true without need. `take`
+/// gets every packet's answer while it is in registers.
 #[inline(always)]
 pub(crate) fn nearest_hits<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,

@@ -12,7 +12,9 @@
 //! (2013), adds it to the exit; here every face is moved, as the primitives' own error goes across the ray as well). So all
 //! boxes are wider by [`PAD`] (D + |o|) on all sides. No hit is found before the ray enters that box: the spheres'
 //! test errs as if the sphere were larger by 12 ε |f|, and all others keep their hits within boxes of their own, wider
-//! by 32 ε D ([`crate::geometry::triangle::distance`], [`super::super::boxes`]).
+//! by 32 ε D ([`crate::geometry::triangle::distance`], [`super::super::boxes`]). The spheres' error is 21 ε D at most, as
+//! |f| ≤ √3 D; their boxes, rounded to nearest, add ε (D + |o|), a direction that is 84 ε too long or short, as a ray
+//! file's may be, less than 30 ε of a radius: less than 64 in all.
 
 use crate::bvh::Bvh;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
@@ -102,7 +104,7 @@ impl Beam {
         beam
     }
 
-    /// Eight boxes' entries, not below zero, and where they are met before `end`. `faces` gives the boxes' near and far
+    /// Eight boxes' entries, not below zero, and which are met no later than at `end`. `faces` gives the boxes' near and far
     /// coordinates along an axis, told which end is near (0 for the least); `MIXED` may be false where
     /// [`Beam::mixed`] is.
     #[inline(always)]
@@ -112,7 +114,7 @@ impl Beam {
         for axis in 0..3 {
             let (r, a) = self.near[axis];
             let (q, b) = self.far[axis];
-            let [near, far] = faces(axis, self.side[axis] & 1);
+            let [near, far] = faces(axis, self.side[axis]);
             // What is NaN (∞ − ∞) is passed over.
             enter = Lanes::max(near.mul_sub(r, a), enter);
             let other = far.mul_sub(q, b);

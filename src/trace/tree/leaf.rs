@@ -1,7 +1,7 @@
 //! The primitives of a block against the packets of a group.
 
 use crate::bvh::{SphereBlock, TriangleBlock};
-use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, normal};
+use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, normal, there};
 use crate::geometry::{Primitives, Sides, SphereRecord, Spheres};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use crate::scene::with_primitive;
@@ -25,7 +25,7 @@ impl Walk<'_> {
     ) -> bool {
         let faces = |axis: usize, near: usize| {
             let [a, b, c] = [0, 1, 2].map(|k| f32x8::from(block.corners[k][axis]));
-            in_order(near, Lanes::min(a, Lanes::min(b, c)), Lanes::max(a, Lanes::max(b, c)))
+            near_first(near, Lanes::min(a, Lanes::min(b, c)), Lanes::max(a, Lanes::max(b, c)))
         };
         let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
         let mut taken = false;
@@ -94,7 +94,7 @@ impl Walk<'_> {
         let radius = f32x8::from(block.radius);
         let faces = |axis: usize, near: usize| {
             let center = f32x8::from(block.center[axis]);
-            in_order(near, center - radius, center + radius)
+            near_first(near, center - radius, center + radius)
         };
         let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
         let mut taken = false;
@@ -177,18 +177,8 @@ impl Walk<'_> {
     }
 }
 
-/// Where a triangle is there for rays that run `along` its normal.
-#[inline(always)]
-fn there<L: Lanes>(sides: Sides, along: L) -> L::Mask {
-    match sides {
-        Sides::Both => L::zero().le(L::zero()),
-        Sides::Front => along.lt(L::zero()),
-        Sides::Back => along.gt(L::zero()),
-    }
-}
-
 /// The near end first.
 #[inline(always)]
-fn in_order(near: usize, least: f32x8, most: f32x8) -> [f32x8; 2] {
+fn near_first(near: usize, least: f32x8, most: f32x8) -> [f32x8; 2] {
     if near == 0 { [least, most] } else { [most, least] }
 }

@@ -77,7 +77,7 @@ impl Line {
         }
     }
 
-    /// Eight boxes' entries, not below zero, and where they are met before `end`.
+    /// Eight boxes' entries, not below zero, and which are met no later than at `end`.
     #[inline(always)]
     pub fn meets(&self, node: &Node, end: f32x8) -> (f32x8, u32) {
         let mut enter = f32x8::ZERO;

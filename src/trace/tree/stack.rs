@@ -2,7 +2,7 @@
 
 use crate::bvh::{Child, MOST_DEPTH, Node};
 
-/// A node leaves at most seven of its children behind.
+/// A node leaves at most seven of its children behind; while they are sorted in there are all eight.
 const ROOM: usize = 7 * MOST_DEPTH + 8;
 
 /// A child, and the distance from which on it may be hit: as bits above the child's, since distances are not below
@@ -11,6 +11,7 @@ const ROOM: usize = 7 * MOST_DEPTH + 8;
 pub struct Entry(u64);
 
 impl Entry {
+    /// `child`, from `enter` on.
     #[inline(always)]
     pub fn new(enter: f32, child: Child) -> Self {
         Self((u64::from(enter.to_bits()) << 32) | u64::from(child.bits()))
@@ -22,6 +23,7 @@ impl Entry {
         f32::from_bits((self.0 >> 32) as u32)
     }
 
+    /// The child.
     #[inline(always)]
     pub fn child(self) -> Child {
         Child::from_bits(self.0 as u32)
@@ -42,12 +44,13 @@ impl Default for Stack {
 }
 
 impl Stack {
+    /// Forgets all entries.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.len = 0;
     }
 
-    /// The next entry that begins before `end`.
+    /// The next entry that begins no later than `end`: at equal distance a lower id may be there.
     #[inline(always)]
     pub fn pop(&mut self, end: f32) -> Option<Entry> {
         while self.len > 0 {

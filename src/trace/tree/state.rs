@@ -18,7 +18,9 @@ pub struct State {
     pub id: [u32; BATCH],
     /// The directions' [`Aim::shear`], for triangles.
     shear: [[f32; BATCH]; 2],
+    /// Rays that are traced alone.
     pub lines: Lines,
+    /// What the ray or group that is on its way has put aside.
     pub stack: Stack,
 }
 
