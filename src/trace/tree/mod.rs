@@ -36,10 +36,12 @@ use std::ops::Range;
 const GROUP: usize = 16;
 /// How far apart a group's directions may be along any axis.
 const WIDEST: f32 = 0.5;
-/// How far apart they may be at the far side of the scene, in sizes of the tree's blocks: for a group to stay whole, and
-/// for the rays of the smallest not to be traced one by one.
-const FAR: [f32; 2] = [1.5, 30.0];
-/// How far apart the origins may be, likewise.
+/// How far apart they may be at the far side of the scene, in sizes of the tree's blocks, for a group to stay whole.
+const FAR: f32 = 1.5;
+/// The same for the rays of the smallest group not to be traced one by one; first for a common origin, from where they
+/// spread before they meet anything.
+const FAR_ALONE: [f32; 2] = [3.0, 30.0];
+/// How far apart the origins may be, for both.
 const NEAR: [f32; 2] = [1.0, 1.5];
 
 /// What a traversal works on. `ANY`: any hit will do; `RARE`: sides matter; `MIXED`: the beam has an axis with both
@@ -115,11 +117,13 @@ impl Walk<'_> {
         let bvh = self.bvh;
         let size = (bvh.bounds.max - bvh.bounds.min).max_element();
         let spread = (directions[1] - directions[0]).max_element();
-        let far = spread * size / bvh.grain;
+        let away = (bvh.bounds.max - origins[0]).max(origins[1] - bvh.bounds.min).max_element();
+        let far = spread * size.max(away) / bvh.grain;
         let near = (origins[1] - origins[0]).max_element() / bvh.grain;
         if range.len() <= GROUP {
             // NaN fails these.
-            if spread < WIDEST && far < FAR[1] && near <= NEAR[1] {
+            let alone = FAR_ALONE[usize::from(!self.rays.common_origin)];
+            if spread < WIDEST && far < alone && near <= NEAR[1] {
                 self.group::<L, ANY, RARE>(&Beam::new(origins, directions, bvh), range);
             } else {
                 self.state.lines.prepare(self.rays, bvh, range.clone());
@@ -127,7 +131,7 @@ impl Walk<'_> {
             }
             return;
         }
-        let excess = f32::max(far / FAR[0], near / NEAR[0]);
+        let excess = f32::max(far / FAR, near / NEAR[0]);
         if spread < WIDEST && excess <= 1.0 {
             return self.group::<L, ANY, RARE>(&Beam::new(origins, directions, bvh), range);
         }
