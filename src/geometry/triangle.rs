@@ -1,5 +1,5 @@
-//! The triangle with corners a, b, c; its front is where they run counter-clockwise. A triangle without area is never
-//! hit, and neither is one seen edge-on.
+//! The triangle with corners a, b, c; its front is where they run counter-clockwise. A triangle without area is hit by
+//! no ray, or, as N is rounded, by one that meets the line it has shrunk to; one seen edge-on likewise.
 //!
 //! Two methods:
 //!
@@ -7,8 +7,8 @@
 //!   §3: the corners are sheared along the ray's largest component, each by itself and so alike for all triangles that
 //!   share it, and the sign of every edge function x y' − y x' is exact, since both products round the same way; so no
 //!   ray slips between triangles that share an edge or a corner. Two deviations: an edge function of 0 is not computed
-//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within the
-//!   triangle's box, without which a line is not hit ([`distance`]).
+//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within the triangle's
+//!   box, without which there is no hit ([`distance`]).
 //! - [`moller_trumbore`] (*Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its determinants expanded along
 //!   the direction instead of the edges: with T = o − a, e1 = b − a, e2 = c − a and N = e1 × e2, det = d·N,
 //!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two

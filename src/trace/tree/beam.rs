@@ -26,11 +26,11 @@ use super::State;
 
 /// 64 ε.
 pub const PAD: f32 = 1.0 / (1 << 18) as f32;
-/// A direction's component below this counts as both above and below zero: its inverse times any distance is beyond
-/// all others.
+/// A direction's component below this counts as both above and below zero in a group, and as this for a single ray: its
+/// inverse times any distance is beyond all others.
 pub const TINY: f32 = 1e-18;
 
-/// Bounds of the active rays of a group, or a single ray.
+/// Bounds of the active rays of a group.
 pub struct Beam {
     /// Per axis: the inverse that the faces where rays enter are multiplied by, and what is taken from that.
     near: [(f32x8, f32x8); 3],
