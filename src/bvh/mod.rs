@@ -173,6 +173,12 @@ impl Node {
         [end & 1, !end & 1].map(|end| self.ends[end][axis].into())
     }
 
+    /// One child's coordinate along an axis at one end.
+    #[inline(always)]
+    pub fn end(&self, axis: usize, end: usize, lane: usize) -> f32 {
+        self.ends[end & 1][axis][lane]
+    }
+
     /// The number of used children.
     pub fn len(&self) -> usize {
         self.child.iter().take_while(|&&child| child != Child::EMPTY).count()

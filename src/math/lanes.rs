@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use bytemuck::cast;
-use wide::{f32x4, f32x8, i32x4, i32x8, u32x4, u32x8};
+use wide::{f32x4, f32x8, f32x16, i32x4, i32x8, i32x16, u32x4, u32x8, u32x16};
 
 /// The bits of √½.
 const SQRT_HALF: i32 = 0x3f35_04f3;
@@ -45,6 +45,8 @@ pub trait Lanes:
     const NAME: &'static str;
     /// What comparisons give.
     type Mask: LaneMask;
+    /// The same, or twice as wide where that pays: for loops over packets that no one outside sees.
+    type Wider: Lanes;
 
     /// The same number in every lane.
     fn splat(value: f32) -> Self;
@@ -127,7 +129,7 @@ fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
 }
 
 /// The widest of the types: columns that are loaded from any place are padded to a multiple of it.
-pub const MOST_LANES: usize = 8;
+pub const MOST_LANES: usize = 16;
 
 impl LaneMask for bool {
     #[inline(always)]
@@ -152,6 +154,7 @@ impl Lanes for f32 {
     const WIDTH: usize = 1;
     const NAME: &'static str = "x1";
     type Mask = bool;
+    type Wider = f32;
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -241,7 +244,7 @@ impl Lanes for f32 {
 
 /// A wide type as lanes; `$int` and `$signed` have as many integers, `$powers` is lane i ↦ 2^i.
 macro_rules! wide_lanes {
-    ($float:ident, $int:ident, $signed:ident, $from_signed:ident, $width:literal, $name:literal, $powers:expr) => {
+    ($float:ident, $wider:ident, $int:ident, $signed:ident, $from_signed:ident, $width:literal, $name:literal, $powers:expr) => {
         impl LaneMask for $float {
             #[inline(always)]
             fn any(self) -> bool {
@@ -266,6 +269,7 @@ macro_rules! wide_lanes {
             const WIDTH: usize = $width;
             const NAME: &'static str = $name;
             type Mask = $float;
+            type Wider = $wider;
 
             #[inline(always)]
             fn splat(value: f32) -> Self {
@@ -386,8 +390,15 @@ macro_rules! wide_lanes {
     };
 }
 
-wide_lanes!(f32x4, u32x4, i32x4, from_i32x4, 4, "x4", [1, 2, 4, 8]);
-wide_lanes!(f32x8, u32x8, i32x8, from_i32x8, 8, "x8", [1, 2, 4, 8, 16, 32, 64, 128]);
+/// Sixteen lanes pay where there are registers of that width.
+#[cfg(target_feature = "avx512f")]
+type WiderThan8 = f32x16;
+#[cfg(not(target_feature = "avx512f"))]
+type WiderThan8 = f32x8;
+
+wide_lanes!(f32x4, f32x4, u32x4, i32x4, from_i32x4, 4, "x4", [1, 2, 4, 8]);
+wide_lanes!(f32x8, WiderThan8, u32x8, i32x8, from_i32x8, 8, "x8", [1, 2, 4, 8, 16, 32, 64, 128]);
+wide_lanes!(f32x16, f32x16, u32x16, i32x16, from_i32x16, 16, "x16", std::array::from_fn(|lane| 1 << lane));
 
 #[cfg(test)]
 mod tests {
@@ -439,6 +450,7 @@ mod tests {
                 let one = bits_of::<f32>(op);
                 assert_eq!(one, bits_of::<f32x4>(op), "x4");
                 assert_eq!(one, bits_of::<f32x8>(op), "x8");
+                assert_eq!(one, bits_of::<f32x16>(op), "x16");
             }
         )*};
     }
@@ -475,11 +487,13 @@ mod tests {
         check::<f32>();
         check::<f32x4>();
         check::<f32x8>();
+        check::<f32x16>();
     }
 
     #[test]
     fn masks_turn_into_bits_and_back() {
         for bits in 0..256 {
+            assert_eq!(<f32x16 as LaneMask>::from_bits(bits * 257).bits(), bits * 257);
             assert_eq!(<f32x8 as LaneMask>::from_bits(bits).bits(), bits);
             assert_eq!(<f32x4 as LaneMask>::from_bits(bits).bits(), bits & 15);
             assert_eq!(<bool as LaneMask>::from_bits(bits).bits(), bits & 1);

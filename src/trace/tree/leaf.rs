@@ -105,13 +105,20 @@ impl Walk<'_> {
             if id == NONE {
                 break;
             }
-            let sides =
-                if RARE { self.scene.spheres.sides[(id - self.scene.first.spheres) as usize] } else { Sides::Both };
-            let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
-            let record = SphereRecord { center, radius: block.radius[lane], sides };
-            taken |= self.packets::<Spheres, L, ANY, RARE>(&record, range.clone(), id);
+            taken |= self.packets::<Spheres, L, ANY, RARE>(&self.sphere::<RARE>(block, lane), range.clone(), id);
         }
         taken
+    }
+
+    /// A sphere of a block.
+    #[inline(always)]
+    pub fn sphere<const RARE: bool>(&self, block: &SphereBlock, lane: usize) -> SphereRecord {
+        let sides = match RARE {
+            true => self.scene.spheres.sides[(block.id[lane] - self.scene.first.spheres) as usize],
+            false => Sides::Both,
+        };
+        let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
+        SphereRecord { center, radius: block.radius[lane], sides }
     }
 
     /// Primitive `id` against the packets of a range.

@@ -3,7 +3,7 @@
 use crate::bvh::{Bvh, Node};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
 use std::ops::Range;
-use wide::f32x8;
+use wide::{f32x8, f32x16};
 
 use super::State;
 use super::beam::{PAD, TINY};
@@ -12,9 +12,12 @@ use super::beam::{PAD, TINY};
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Lines {
-    inverse: [[f32; BATCH]; 3],
-    near: [[f32; BATCH]; 3],
-    far: [[f32; BATCH]; 3],
+    /// Per axis, 1 / d.
+    pub inverse: [[f32; BATCH]; 3],
+    /// What is taken from the near face times that.
+    pub near: [[f32; BATCH]; 3],
+    /// And from the far face.
+    pub far: [[f32; BATCH]; 3],
 }
 
 impl Default for Lines {
@@ -28,16 +31,16 @@ impl Lines {
     /// For the rays of a range.
     #[inline(always)]
     pub fn prepare(&mut self, rays: &RayBatch, bvh: &Bvh, range: Range<usize>) {
-        let (min, max) = (Vec3::<f32x8>::splat(bvh.bounds.min), Vec3::splat(bvh.bounds.max));
-        for at in range.step_by(8) {
-            let origin = rays.origins::<f32x8>(at);
+        let (min, max) = (Vec3::<f32x16>::splat(bvh.bounds.min), Vec3::splat(bvh.bounds.max));
+        for at in range.step_by(16) {
+            let origin = rays.origins::<f32x16>(at);
             let reach = Lanes::max((max - origin).max_abs(), (origin - min).max_abs()) + origin.max_abs();
-            let pad = reach * f32x8::splat(PAD);
-            let d = Vec3::<f32x8>::load(&rays.direction, at);
+            let pad = reach * f32x16::splat(PAD);
+            let d = Vec3::<f32x16>::load(&rays.direction, at);
             for (axis, (o, d)) in [(origin.x, d.x), (origin.y, d.y), (origin.z, d.z)].into_iter().enumerate() {
-                let tiny = Lanes::lt(Lanes::abs(d), f32x8::splat(TINY));
-                let least = Lanes::select(f32x8::splat(-TINY), Lanes::lt(d, f32x8::ZERO), f32x8::splat(TINY));
-                let inverse = f32x8::ONE / Lanes::select(least, tiny, d);
+                let tiny = Lanes::lt(Lanes::abs(d), f32x16::splat(TINY));
+                let least = Lanes::select(f32x16::splat(-TINY), Lanes::lt(d, f32x16::ZERO), f32x16::splat(TINY));
+                let inverse = f32x16::ONE / Lanes::select(least, tiny, d);
                 let wider = Lanes::abs(inverse) * pad;
                 let at_origin = o * inverse;
                 inverse.store(&mut self.inverse[axis][at..]);

@@ -1,9 +1,9 @@
 //! The two queries by way of the [`Bvh`]: rays that run together descend as a group behind a beam that holds them all,
-//! others one at a time.
+//! others as packets whose rays have each its own interval, and one at a time where few of a packet are left.
 //!
 //! A batch stays whole while its rays lie no farther apart, where they start and at the far side of the scene, than the
 //! tree's blocks are large; else it is cut into as many parts as bring it there, and what is down to [`GROUP`] rays and still
-//! much wider is traced ray by ray. So a group meets few boxes that some of its rays miss. (Large packets by one bound for
+//! much wider becomes a packet. So a group meets few boxes that some of its rays miss. (Large packets by one bound for
 //! all: Boulos, Wald, Benthin 2006; single rays against eight boxes: Wald, Benthin, Boulos, *Getting Rid of Packets*, 2008;
 //! both: Benthin, Wald, Woop, Ernst, Mark, *Combining Single and Packet-Ray Tracing*, 2012.)
 //!
@@ -15,6 +15,7 @@ mod beam;
 mod group;
 mod leaf;
 mod line;
+mod packet;
 mod single;
 mod stack;
 mod state;
@@ -32,15 +33,15 @@ use std::ops::Range;
 
 // These four were measured on balls, ico1k, bunny and terrain1m.
 
-/// A part of no more rays is not cut further: it is traced as a group, or ray by ray where it is too wide for that.
-const GROUP: usize = 16;
+/// A part of no more rays is not cut further: it is traced as a group, or as a packet where it is too wide for that.
+const GROUP: usize = packet::RAYS;
 /// How far apart a group's directions may be along any axis.
 const WIDEST: f32 = 0.5;
 /// How far apart they may be at the far side of the scene, in sizes of the tree's blocks, for a group to stay whole.
 const FAR: f32 = 1.5;
-/// The same for the rays of the smallest group not to be traced one by one; first for a common origin, from where they
-/// spread before they meet anything.
-const FAR_ALONE: [f32; 2] = [3.0, 30.0];
+/// The same for the smallest group not to become a packet; first for a common origin, from where its rays spread before
+/// they meet anything.
+const FAR_ALONE: [f32; 2] = [3.0, 20.0];
 /// How far apart the origins may be, for both.
 const NEAR: [f32; 2] = [1.0, 1.5];
 
@@ -101,13 +102,13 @@ fn answer<L: Lanes, const ANY: bool, const RARE: bool>(
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
 ) {
-    state.start::<L>(rays, !bvh.triangles.is_empty());
+    state.start::<L::Wider>(rays, !bvh.triangles.is_empty());
     let mut walk = Walk { scene, bvh, rays, state };
     if !scene.planes.is_empty() {
         let Some(bounds) = bounds() else { return };
         walk.planes::<L, ANY>(&bounds);
     }
-    walk.rays::<L, ANY, RARE>(0..rays.len.next_multiple_of(L::WIDTH));
+    walk.rays::<L::Wider, ANY, RARE>(0..rays.len.next_multiple_of(L::Wider::WIDTH));
 }
 
 impl Walk<'_> {
@@ -127,7 +128,7 @@ impl Walk<'_> {
                 self.group::<L, ANY, RARE>(&Beam::new(origins, directions, bvh), range);
             } else {
                 self.state.lines.prepare(self.rays, bvh, range.clone());
-                range.for_each(|i| self.single::<ANY, RARE>(i));
+                self.packet::<ANY, RARE>(range.start);
             }
             return;
         }

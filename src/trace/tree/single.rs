@@ -1,6 +1,6 @@
 //! One ray against eight boxes, triangles or spheres at a time.
 
-use crate::bvh::{Kind, SphereBlock, TriangleBlock};
+use crate::bvh::{Child, Kind, SphereBlock, TriangleBlock};
 use crate::geometry::triangle::{Aim, covers_ordered, distance, normal};
 use crate::geometry::{Primitives, Sides, Spheres, sphere};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
@@ -19,32 +19,38 @@ struct Ray {
     shear: [f32x8; 2],
 }
 
+impl Ray {
+    #[inline(always)]
+    fn new(walk: &Walk, i: usize) -> Self {
+        let direction = Vec3::<f32>::load(&walk.rays.direction, i);
+        Self {
+            i,
+            origin: Vec3::splat(walk.rays.origins::<f32>(i).into()),
+            direction: Vec3::splat(direction.into()),
+            t_min: f32x8::splat(walk.rays.t_min[i]),
+            major: Aim::major_of(direction),
+            shear: walk.state.shear::<f32>(i).map(f32x8::splat),
+        }
+    }
+}
+
 impl Walk<'_> {
-    /// Traces ray `i`, unless it is done; its [`Line`] is known.
+    /// Traces ray `i` through a node and what is below, unless it is done; its [`Line`] is known.
     #[inline(never)]
-    pub fn single<const ANY: bool, const RARE: bool>(&mut self, i: usize) {
-        if self.state.t[i].is_nan() || self.state.t[i] < 0.0 {
+    pub fn single<const ANY: bool, const RARE: bool>(&mut self, i: usize, from: Child) {
+        let mut limit = self.state.t[i];
+        if limit.is_nan() || limit < 0.0 {
             return;
         }
         let bvh = self.bvh;
-        let direction = Vec3::<f32>::load(&self.rays.direction, i);
-        let line = Line::new(self.state, direction, i);
-        let ray = Ray {
-            i,
-            origin: Vec3::splat(self.rays.origins::<f32>(i).into()),
-            direction: Vec3::splat(direction.into()),
-            t_min: f32x8::splat(self.rays.t_min[i]),
-            major: Aim::major_of(direction),
-            shear: self.state.shear::<f32>(i).map(f32x8::splat),
-        };
-        let mut limit = self.state.t[i];
+        let line = Line::new(self.state, Vec3::<f32>::load(&self.rays.direction, i), i);
+        let ray = Ray::new(self, i);
         self.state.stack.clear();
-        let mut child = bvh.root;
+        let mut child = from;
         loop {
-            let at = child.index();
             let closer = match child.kind() {
                 Kind::Node => {
-                    let node = &bvh.nodes[at];
+                    let node = &bvh.nodes[child.index()];
                     let (enter, met) = line.meets(node, f32x8::splat(limit));
                     if met != 0 {
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
@@ -52,9 +58,7 @@ impl Walk<'_> {
                     }
                     false
                 }
-                Kind::Triangles => self.eight_triangles::<ANY, RARE>(&ray, &bvh.triangles[at]),
-                Kind::Spheres => self.eight_spheres::<ANY, RARE>(&ray, &bvh.spheres[at]),
-                Kind::Others => self.others::<f32, ANY>(at, i..i + 1),
+                _ => self.block::<ANY, RARE>(&ray, child),
             };
             if closer {
                 limit = self.state.t[i];
@@ -67,6 +71,24 @@ impl Walk<'_> {
                 None => return,
             }
         }
+    }
+
+    /// The primitives of a block against one ray.
+    #[inline(always)]
+    fn block<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, child: Child) -> bool {
+        match child.kind() {
+            Kind::Triangles => self.eight_triangles::<ANY, RARE>(ray, &self.bvh.triangles[child.index()]),
+            Kind::Spheres => self.eight_spheres::<ANY, RARE>(ray, &self.bvh.spheres[child.index()]),
+            Kind::Others => self.others::<f32, ANY>(child.index(), ray.i..ray.i + 1),
+            Kind::Node => false,
+        }
+    }
+
+    /// The primitives of a block against ray `i`.
+    #[inline(always)]
+    pub fn block_alone<const ANY: bool, const RARE: bool>(&mut self, i: usize, child: Child) {
+        let ray = Ray::new(self, i);
+        self.block::<ANY, RARE>(&ray, child);
     }
 
     #[inline(always)]

@@ -4,6 +4,7 @@ use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MOST_LANES, NONE, RayBatch, Vec3};
 
 use super::line::Lines;
+use super::packet::Parts;
 use super::stack::Stack;
 
 /// Per ray: the end of its interval, the hit that set it, and what the triangles' test needs of its direction. Kept
@@ -18,10 +19,12 @@ pub struct State {
     pub id: [u32; BATCH],
     /// The directions' [`Aim::shear`], for triangles.
     shear: [[f32; BATCH]; 2],
-    /// Rays that are traced alone.
+    /// Rays of packets, and those traced alone.
     pub lines: Lines,
-    /// What the ray or group that is on its way has put aside.
+    /// What the ray or the group that is on its way has put aside.
     pub stack: Stack,
+    /// What the packet that is on its way has.
+    pub parts: Parts,
 }
 
 impl Default for State {
@@ -32,6 +35,7 @@ impl Default for State {
             shear: [[0.0; BATCH]; 2],
             lines: Lines::default(),
             stack: Stack::default(),
+            parts: Parts::default(),
         }
     }
 }
@@ -44,11 +48,22 @@ impl State {
         self.t[rays.len..rays.len.next_multiple_of(MOST_LANES)].fill(f32::NAN);
         for at in (0..rays.len).step_by(L::WIDTH) {
             let t_max = L::load(&rays.t_max[at..]);
-            let active =
-                t_max.ge(L::zero()) & finite(rays.origins::<L>(at)) & finite(Vec3::<L>::load(&rays.direction, at));
-            t_max.select(active, L::splat(f32::NAN)).store(&mut self.t[at..]);
+            t_max.select(t_max.ge(L::zero()), L::splat(f32::NAN)).store(&mut self.t[at..]);
             L::splat_id(NONE).store_ids(&mut self.id[at..]);
-            if triangles {
+        }
+        if rays.common_origin && !rays.first_origin().is_finite() {
+            self.t[..rays.len].fill(f32::NAN);
+        }
+        // Column by column, as they lie in memory.
+        let origins = rays.origin.iter().filter(|_| !rays.common_origin);
+        for column in origins.chain(&rays.direction) {
+            for at in (0..rays.len).step_by(L::WIDTH) {
+                // 0 · ∞ is NaN.
+                L::load(&column[at..]).mul_add(L::zero(), L::load(&self.t[at..])).store(&mut self.t[at..]);
+            }
+        }
+        if triangles {
+            for at in (0..rays.len).step_by(L::WIDTH) {
                 let aim = Aim::new(Vec3::<L>::load(&rays.direction, at));
                 aim.shear[0].store(&mut self.shear[0][at..]);
                 aim.shear[1].store(&mut self.shear[1][at..]);
@@ -100,12 +115,4 @@ impl State {
         }
         most.greatest()
     }
-}
-
-/// Where all components are finite.
-#[inline(always)]
-fn finite<L: Lanes>(v: Vec3<L>) -> L::Mask {
-    // 0 · ∞ is NaN.
-    let Vec3 { x, y, z } = v * L::zero();
-    (x + y + z).eq(L::zero())
 }
