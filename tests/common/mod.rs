@@ -1,7 +1,8 @@
 //! What several test programs share: random numbers that are the same everywhere, and small scenes.
 #![allow(dead_code, reason = "every test program compiles this, and none uses all of it")]
 
-use glam::{Vec3, vec3};
+use glam::Vec3;
+pub use raypacket::measure::random::Pcg;
 use raypacket::render::{Camera, Film, Kernel, render};
 use raypacket::scene::{
     Description, Light, Material, Mesh, Pigment, Plane, Scene, Sides, Sphere, builtins, compile, load,
@@ -9,56 +10,6 @@ use raypacket::scene::{
 
 /// ε: half the distance from 1 to the next `f32`.
 pub const ROUNDOFF: f64 = 1.0 / (1u64 << 24) as f64;
-
-/// PCG-XSH-RR (O'Neill 2014): the same numbers on every machine.
-#[derive(Clone, Debug)]
-pub struct Pcg(u64);
-
-impl Pcg {
-    pub fn new(seed: u64) -> Self {
-        let mut rng = Self(seed.wrapping_add(0x9e37_79b9_7f4a_7c15));
-        rng.bits();
-        rng
-    }
-
-    pub fn bits(&mut self) -> u32 {
-        let old = self.0;
-        self.0 = old.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((((old >> 18) ^ old) >> 27) as u32).rotate_right((old >> 59) as u32)
-    }
-
-    /// From 0 up to but not including `n`.
-    pub fn below(&mut self, n: usize) -> usize {
-        ((u64::from(self.bits()) * n as u64) >> 32) as usize
-    }
-
-    pub fn chance(&mut self, p: f32) -> bool {
-        self.range(0.0, 1.0) < p
-    }
-
-    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())]
-    }
-
-    pub fn range(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * ((self.bits() >> 8) as f32 / (1 << 24) as f32)
-    }
-
-    /// Within the cube from −1 to 1.
-    pub fn cube(&mut self) -> Vec3 {
-        vec3(self.range(-1.0, 1.0), self.range(-1.0, 1.0), self.range(-1.0, 1.0))
-    }
-
-    /// Evenly on the unit sphere.
-    pub fn unit(&mut self) -> Vec3 {
-        loop {
-            let v = self.cube();
-            if (0.01..=1.0).contains(&v.length_squared()) {
-                return v.normalize();
-            }
-        }
-    }
-}
 
 /// A matt or mirroring white material.
 pub fn white(reflectance: f32) -> Material {
