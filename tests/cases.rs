@@ -1,6 +1,5 @@
 //! The hard cases through the public queries: every width, with a tree and without, both queries give one answer.
 
-use glam::Vec3;
 use raypacket::math::Lanes;
 use raypacket::measure::cases::{ALL, Case, Generator, Ray, Subject, find};
 use raypacket::scene::{Description, Scene, Structure, compile_as};
@@ -170,15 +169,15 @@ fn known_answers() {
     }
 }
 
-/// A box's face belongs to it: a ray in its plane sees it, one beside it does not, by a single step of `f32`.
+/// A box's face belongs to it: a ray in its plane or within it sees the box, one beside it does not, by a single step of
+/// `f32`.
 #[test]
 fn in_the_plane_of_a_face() {
-    let case = find("box-face").expect("a case").make(1.0, 3 * RAYS, 1);
-    let cuboid = case.description.cuboids[0];
-    let hits = agree(&case, "box-face");
-    for (ray, hit) in case.rays.iter().zip(hits) {
-        let beyond =
-            |p: Vec3| (0..3).any(|k| ray.direction[k] == 0.0 && (p[k] < cuboid.min[k] || p[k] > cuboid.max[k]));
-        assert!(!beyond(ray.origin) || hit.is_none(), "{ray:?}: {hit:?}");
+    for seed in 0..20 {
+        let case = find("box-face").expect("a case").make(1.0, RAYS, seed);
+        let hits = agree(&case, "box-face");
+        for (i, (ray, hit)) in case.rays.iter().zip(hits).enumerate() {
+            assert_eq!(hit.is_some(), i % 3 != 1, "seed {seed}: {ray:?}: {hit:?} in {:?}", case.description.cuboids[0]);
+        }
     }
 }

@@ -59,13 +59,13 @@ impl Body {
     fn near_axis(&self, dial: f64, rays: usize, rng: &mut Pcg) -> Made {
         let angle = dial.to_radians();
         let axis = self.axis();
-        let aim = |i| {
+        let aim = |i: usize| {
             let out = rng.across(axis);
             let through = self.side(out, rng);
             let draw = || {
                 let direction = match self.aligned {
                     // One component may not be lost in another's rounding, nor a zero's sign.
-                    Some(k) => aligned(k, angle, i % 2 == 0, rng),
+                    Some(k) => aligned(k, angle, i.is_multiple_of(2), rng),
                     None => axis * (angle.cos() * rng.sign()) + rng.across(axis) * angle.sin(),
                 };
                 let origin = (through - direction * rng.between(1.0, 20.0)).as_vec3();

@@ -56,7 +56,7 @@ pub fn towards(origin: Vec3, target: DVec3) -> Ray {
 
 /// 1 for even rays, −1 for odd ones.
 pub fn side(i: usize) -> f64 {
-    if i % 2 == 0 { 1.0 } else { -1.0 }
+    if i.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 /// How far a ray's line passes a point by.

@@ -6,11 +6,13 @@ use super::draw::{along, empty, foot_and_normal, side};
 use super::{Made, Pcg, mixed, triangle};
 use crate::scene::{Cone, Cuboid, Cylinder, Description, Plane, Quad, Sides, Torus};
 
-/// A primitive, and how to draw a point of its surface with the outward unit normal there, both in `f64`, from its
-/// `f32`s as they are.
+/// Draws a point of a surface, and the outward unit normal there.
+type Draw = dyn Fn(&mut Pcg) -> (DVec3, DVec3);
+
+/// A primitive, and how to draw points of its surface in `f64`, from its `f32`s as they are.
 struct Shape {
     description: Description,
-    point: Box<dyn Fn(&mut Pcg) -> (DVec3, DVec3)>,
+    point: Box<Draw>,
 }
 
 /// Half the rays leave to where the normal points, half to the other side. They start at the `f32`s nearest to a point
@@ -113,7 +115,7 @@ pub fn cone(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
 }
 
 /// Points of a frustum: a third each on its side and both its ends.
-fn revolved(ends: [DVec3; 2], radii: [f64; 2]) -> Box<dyn Fn(&mut Pcg) -> (DVec3, DVec3)> {
+fn revolved(ends: [DVec3; 2], radii: [f64; 2]) -> Box<Draw> {
     let [base, apex] = ends;
     let length = base.distance(apex);
     let axis = (apex - base) / length;
