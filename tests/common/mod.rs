@@ -1,5 +1,5 @@
 //! What several test programs share: random numbers that are the same everywhere, and small scenes.
-#![allow(dead_code, reason = "every test program compiles this, and none uses all of it")]
+#![allow(dead_code, unused_imports, reason = "every test program compiles this, and none uses all of it")]
 
 use glam::Vec3;
 pub use raypacket::measure::random::Pcg;
