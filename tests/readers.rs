@@ -1,6 +1,10 @@
 //! The readers from outside: every fault gives its exact line, and no content of any file makes them panic.
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::Path,
+    time::{Duration, Instant},
+};
 
 use glam::Vec3;
 use proptest::prelude::*;
@@ -427,6 +431,16 @@ fn mesh_faults_name_both_files() {
     assert!(itself.starts_with("s.toml:1: mesh[0].file: ") && itself.ends_with(": not a regular file"), "{itself}");
     let nul = read(&folder(&[("s.toml", br#"mesh = [{ file = "a\u0000\nb" }]"#)])).unwrap_err();
     assert_eq!(nul, "s.toml:1: mesh[0].file: a\\u{0}\\nb: file name contained an unexpected NUL byte");
+}
+
+/// As long as a line may be, in the shortest parts: minutes, if each part cost as much as all before.
+#[test]
+fn a_line_that_goes_on_a_million_times() {
+    let obj = format!("v 0 0 0 \\\n{}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "\\\n".repeat(1_900_000));
+    let f = folder(&[("s.toml", MESH), ("m.obj", obj.as_bytes())]);
+    let started = Instant::now();
+    assert_eq!(read(&f).unwrap().primitives(), 1);
+    assert!(started.elapsed() < Duration::from_secs(30), "{:?}", started.elapsed());
 }
 
 #[test]

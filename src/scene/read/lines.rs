@@ -54,7 +54,9 @@ impl<'a, R: Read> Lines<'a, R> {
     pub fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, ReadError> {
         self.line.clear();
         let start = self.number + 1;
+        let mut comment = false;
         loop {
+            let known = self.line.len();
             let room = MAX_LINE - self.line.len() as u64;
             let mut part = (&mut self.reader).take(room + 1);
             let read = part
@@ -71,8 +73,10 @@ impl<'a, R: Read> Lines<'a, R> {
             self.number += usize::from(read > 0);
             let end = self.line.iter().rposition(|b| !matches!(b, b'\n' | b'\r')).map_or(0, |i| i + 1);
             self.line.truncate(end);
-            // Comments end in a backslash when they quote a path.
-            if read == 0 || self.line.last() != Some(&b'\\') || self.line.contains(&b'#') {
+            // Comments end in a backslash when they quote a path. Only what is new is searched: a line may go on a
+            // million times.
+            comment |= self.line[known.min(end)..].contains(&b'#');
+            if comment || read == 0 || self.line.last() != Some(&b'\\') {
                 break;
             }
             self.line.pop();
