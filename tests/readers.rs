@@ -229,6 +229,16 @@ fn syntax_faults() {
     );
 }
 
+/// Tables that take no room in the file take much in memory.
+#[test]
+fn too_many_tables() {
+    let most = 1 << 20;
+    let problem = format!("s.toml: more than {most} tables");
+    for many in ["{},", "[a]\n", "\t[ [a]]\n", "1.1 .1.1", "{a.a={a.a=1}},", "\"\".''."] {
+        fault(&format!("x = [\n{}", many.repeat(most + 2)), &problem);
+    }
+}
+
 #[test]
 fn unknown_keys() {
     fault(

@@ -28,6 +28,10 @@ use super::{
 };
 use crate::scene::{Description, Invalid, check};
 
+/// The most tables of a file, as [`tables`] counts: more than the shortest primitives that fit into it. A table takes
+/// about 1500 bytes of memory, and two bytes are enough to make one: `a.a.a`.
+const MAX_TABLES: usize = 1 << 20;
+
 type Triple = Exactly<f32, 3>;
 
 impl From<Triple> for Vec3 {
@@ -68,6 +72,9 @@ pub(super) fn parse(
     assets: &Assets,
     progress: Progress<'_>,
 ) -> Result<Description, ReadError> {
+    if tables(text) > MAX_TABLES {
+        return Err(ReadError::File { path: file.into(), problem: format!("more than {MAX_TABLES} tables") });
+    }
     let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
     let table = Deserializer::from(table);
     let scene = SceneFile::deserialize(table).map_err(|error| shape(text, file, &error))?;
@@ -75,6 +82,28 @@ pub(super) fn parse(
     describe(scene, name, assets, progress)
         .and_then(|description| check(&description).map(|()| description))
         .map_err(|Invalid { key, problem }| ReadError::at(file, place::line_of(text, &key), key, problem))
+}
+
+/// How many tables the text makes: at least half of them, and more where comments and strings look like tables.
+fn tables(text: &str) -> usize {
+    let (mut tables, mut dots, mut fresh) = (0, 0, true);
+    for byte in text.bytes() {
+        match byte {
+            b' ' | b'\t' => continue,
+            b'{' => tables += 1,
+            b'[' if fresh => tables += 1,
+            // The first may be a number's.
+            b'.' if dots > 0 => tables += 1,
+            _ => {}
+        }
+        dots = match byte {
+            b'.' => dots + 1,
+            b'\n' | b'=' | b',' | b'[' | b'{' => 0,
+            _ => dots,
+        };
+        fresh = byte == b'\n';
+    }
+    tables
 }
 
 /// A fault in the text as TOML.
@@ -145,4 +174,24 @@ fn each<F, P>(
         primitive(element).map_err(|Fault(key, problem)| Invalid { key: format!("{name}[{i}].{key}"), problem })
     };
     elements.into_iter().enumerate().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_TABLES, tables};
+    use crate::scene::MAX_TOML_BYTES;
+
+    #[test]
+    fn numbers_and_arrays_are_no_tables() {
+        assert_eq!(tables("sphere=[{center=[.5,0.,-1.5],radius=1.0},{ center = [1.25, 0, [[2.5]]] }]"), 2);
+        assert_eq!(tables("[a.b]\n x = [\n 1.5,\n]\n\t[[c]]\ny.z = 0"), 2);
+        assert_eq!(tables("a . b.c.d = 1\n{x.y={z=3.5}}"), 4);
+    }
+
+    #[test]
+    fn the_shortest_primitives_fit() {
+        let shortest = "{center=[0,0,0],radius=1},";
+        assert_eq!(tables(shortest), 1);
+        assert!(MAX_TOML_BYTES as usize / shortest.len() < MAX_TABLES);
+    }
 }
