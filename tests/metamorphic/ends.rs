@@ -56,7 +56,7 @@ fn at_an_edge(description: &Description, [from, to]: [Vec3; 2]) -> bool {
     let sizes = (0..description.primitives() as u32).map(|id| tracer.extent(id));
     let size = sizes.fold(from.length().max(to.length()).into(), f64::max);
     let mut rng = Pcg::new(7);
-    let mut off = || DVec3::from(rng.cube()) * (K * ROUNDOFF * size * f64::from(rng.pick(&[1.0, 1.0, 0.1, 1e-3])));
+    let mut off = || DVec3::from(rng.cube()) * (K * ROUNDOFF * size * rng.pick(&[1.0, 1.0, 0.1, 1e-3]));
     let mut answers = (0..NEAR).map(|_| {
         let (from, to) = (from.as_dvec3() + off(), to.as_dvec3() + off());
         tracer.blocked(from, (to - from).normalize(), (to - from).length())
