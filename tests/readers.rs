@@ -234,7 +234,7 @@ fn syntax_faults() {
 fn too_many_tables() {
     let most = 1 << 20;
     let problem = format!("s.toml: more than {most} tables");
-    for many in ["{},", "[a]\n", "\t[ [a]]\n", "1.1 .1.1", "{a.a={a.a=1}},", "\"\".''."] {
+    for many in ["{},", "1.1 .1.1", "{a.a={a.a=1}},", "\"\".''.", "[1.1.a]\n"] {
         fault(&format!("x = [\n{}", many.repeat(most + 2)), &problem);
     }
 }

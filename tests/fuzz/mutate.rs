@@ -44,7 +44,10 @@ impl Mutator {
             // What keeps the text's shape comes first and most often: the readers' depths are behind it.
             0..38 => replace(bytes, number(bytes, rng), &self.edge(rng)),
             38..44 => replace(bytes, word(bytes, rng), rng.pick(&self.tokens)),
-            44..50 => insert(bytes, line_start(bytes, rng), &bytes[some_lines(bytes, rng)].to_vec()),
+            44..50 => {
+                let (at, lines) = (line_start(bytes, rng), some_lines(bytes, rng));
+                insert(bytes, at, &bytes[lines].to_vec());
+            }
             50..54 => drop(bytes.drain(some_lines(bytes, rng))),
             54..58 => self.borrow(bytes, rng),
             58..62 => turn(bytes, rng),

@@ -25,8 +25,8 @@ pub(super) use obj::alone as read_obj;
 
 /// The largest scene file that is read.
 ///
-/// Parsing takes up to about 150 times the file's size in memory, and 1500 bytes more for each table: what has braces
-/// or a header, and each part of a key before a dot. A file may have 2²⁰ of these.
+/// Parsing takes up to about 250 times the file's size in memory, and 1500 bytes more for each table in braces and each
+/// part of a key before a dot, of which a file may have 2²⁰.
 pub const MAX_TOML_BYTES: u64 = 16 << 20;
 
 /// The most that is read from all mesh and material files of a scene together.

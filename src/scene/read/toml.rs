@@ -28,8 +28,8 @@ use super::{
 };
 use crate::scene::{Description, Invalid, check};
 
-/// The most tables of a file, as [`tables`] counts: more than the shortest primitives that fit into it. A table takes
-/// about 1500 bytes of memory, and two bytes are enough to make one: `a.a.a`.
+/// The most tables of a file without a header, as [`tables`] counts: more than the shortest primitives that fit into it.
+/// A table takes about 1500 bytes of memory, and two bytes are enough to make one: `a.a.a`.
 const MAX_TABLES: usize = 1 << 20;
 
 type Triple = Exactly<f32, 3>;
@@ -84,24 +84,21 @@ pub(super) fn parse(
         .map_err(|Invalid { key, problem }| ReadError::at(file, place::line_of(text, &key), key, problem))
 }
 
-/// How many tables the text makes: at least half of them, and more where comments and strings look like tables.
+/// How many tables in braces or before dots the text makes: at least half of them, and more where comments and strings
+/// look like tables.
 fn tables(text: &str) -> usize {
-    let (mut tables, mut dots, mut fresh) = (0, 0, true);
+    let (mut tables, mut dots) = (0, 0);
     for byte in text.bytes() {
         match byte {
-            b' ' | b'\t' => continue,
-            b'{' => tables += 1,
-            b'[' if fresh => tables += 1,
-            // The first may be a number's.
-            b'.' if dots > 0 => tables += 1,
+            b'\n' | b'=' | b',' | b'[' => dots = 0,
+            b'{' => (tables, dots) = (tables + 1, 0),
+            b'.' => {
+                // The first may be a number's.
+                tables += usize::from(dots > 0);
+                dots += 1;
+            }
             _ => {}
         }
-        dots = match byte {
-            b'.' => dots + 1,
-            b'\n' | b'=' | b',' | b'[' | b'{' => 0,
-            _ => dots,
-        };
-        fresh = byte == b'\n';
     }
     tables
 }
@@ -184,7 +181,7 @@ mod tests {
     #[test]
     fn numbers_and_arrays_are_no_tables() {
         assert_eq!(tables("sphere=[{center=[.5,0.,-1.5],radius=1.0},{ center = [1.25, 0, [[2.5]]] }]"), 2);
-        assert_eq!(tables("[a.b]\n x = [\n 1.5,\n]\n\t[[c]]\ny.z = 0"), 2);
+        assert_eq!(tables("[a.b.c]\n x = [\n 1.5,\n 2.5\n]\n[[c]]\ny.z = 0"), 1);
         assert_eq!(tables("a . b.c.d = 1\n{x.y={z=3.5}}"), 4);
     }
 

@@ -7,10 +7,10 @@ use super::Format;
 pub const TOML: Format =
     Format { name: "toml", scene: "scene.toml", mutated: "scene.toml", seeds, tokens: TOKENS, memory };
 
-/// By the file's length, and by its tables: what has braces or a header, and each part of a key before a dot.
+/// By the file's length, and by its tables in braces and before dots.
 fn memory(bytes: &[u8]) -> [usize; 2] {
-    let tables = bytes.iter().filter(|b| b"{[.".contains(b)).count();
-    [150 * bytes.len() + 1500 * tables, 200 * bytes.len() + 1500 * tables]
+    let tables = bytes.iter().filter(|b| b"{.".contains(b)).count();
+    [250, 300].map(|multiple| multiple * bytes.len() + 1500 * tables)
 }
 
 /// The built-in scenes, but for most primitives of large ones, the examples of the documentation, and all keys.
