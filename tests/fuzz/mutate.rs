@@ -45,8 +45,9 @@ impl Mutator {
             0..38 => replace(bytes, number(bytes, rng), &self.edge(rng)),
             38..44 => replace(bytes, word(bytes, rng), rng.pick(&self.tokens)),
             44..50 => {
-                let (at, lines) = (line_start(bytes, rng), some_lines(bytes, rng));
-                insert(bytes, at, &bytes[lines].to_vec());
+                let at = line_start(bytes, rng);
+                let lines = bytes[some_lines(bytes, rng)].to_vec();
+                insert(bytes, at, &lines);
             }
             50..54 => drop(bytes.drain(some_lines(bytes, rng))),
             54..58 => self.borrow(bytes, rng),
