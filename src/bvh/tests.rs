@@ -6,6 +6,7 @@ use super::build::{Tree, build};
 use super::layout::layout;
 use super::refs::collect;
 use super::*;
+use crate::geometry::methods::SphereMethod;
 use crate::geometry::{Sides, Triangles, sphere, triangle};
 use crate::math::Vec3 as Lane3;
 
@@ -364,13 +365,13 @@ fn unused_lanes_are_never_hit() {
                 let d = d.normalize_or(Vec3::Y);
                 let (o, lanes) = (Lane3::from(origin), Lane3::from(d));
                 for sides in [Sides::Both, Sides::Front, Sides::Back] {
-                    let seen = sphere::SeenSphere::new(center, s.radius[7], sides, o);
+                    let seen = sphere::SeenSphere::new(center, s.radius[7], sides, SphereMethod::Stable, o);
                     for method in [sphere::stable, sphere::one_sided, sphere::quadratic, sphere::geometric] {
                         assert!(method(&seen, lanes, 0.0, f32::INFINITY).is_none(), "{origin} {d}");
                     }
                 }
                 // A radius of 0 would be hit.
-                let point = sphere::SeenSphere::new(center, 0.0, Sides::Both, o);
+                let point = sphere::SeenSphere::new(center, 0.0, Sides::Both, SphereMethod::Stable, o);
                 hits += usize::from(sphere::stable(&point, lanes, 0.0, f32::INFINITY).is_some());
 
                 let seen = <Triangles as crate::geometry::Primitives>::seen(&record, o);

@@ -3,6 +3,7 @@
 use super::Failure;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use raypacket::files::Target;
+use raypacket::geometry::methods::Choice;
 use raypacket::render::Kernel;
 use std::ffi::OsStr;
 use std::fmt;
@@ -90,6 +91,14 @@ impl Threads {
         }
         Ok(rayon::current_num_threads())
     }
+}
+
+/// `--method`.
+#[derive(clap::Args)]
+pub struct Methods {
+    /// Test or compute by another method than planned, such as sphere=quadratic; may be given again
+    #[arg(id = "method", long = "method", value_name = "KIND=METHOD")]
+    pub choices: Vec<Choice>,
 }
 
 /// So many threads, in words.

@@ -1,6 +1,6 @@
 //! `raypacket bench`: rays a second.
 
-use super::args::{DEFAULT_SCENE, Json, Size, Threads};
+use super::args::{DEFAULT_SCENE, Json, Methods, Size, Threads};
 use super::{Failure, input, print};
 use raypacket::measure::bench;
 use std::ffi::OsString;
@@ -14,6 +14,8 @@ pub struct Args {
     /// The width and height in pixels of the image whose rays are traced
     #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
     size: Size,
+    #[command(flatten)]
+    methods: Methods,
     #[command(flatten)]
     threads: Threads,
     /// Trace the rays in FILE (eight 32-bit floats a ray) instead; FILE.shadow asks for any hit, others for the nearest
@@ -35,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let options = bench::Options { size: [args.size.width, args.size.height], rays: args.rays.clone() };
     let mut reports = Vec::new();
     for (name, description) in args.scenes.iter().zip(&scenes) {
-        let scene = input::compile(name, description)?;
+        let scene = input::compile(name, description, &args.methods.choices)?;
         // The message names the ray file.
         let report = bench::run(description, &scene, &options).map_err(Failure::input)?;
         if !matches!(json, Some(Json::Stdout)) {

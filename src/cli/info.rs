@@ -1,6 +1,6 @@
 //! `raypacket info`: what a scene holds and how it will be traced.
 
-use super::args::{DEFAULT_SCENE, count};
+use super::args::{DEFAULT_SCENE, Methods, count};
 use super::{Failure, input, print};
 use raypacket::scene::{Description, Scene, Sky, one_line};
 use std::fmt;
@@ -10,11 +10,13 @@ pub struct Args {
     /// A scene file (.toml, .nff, .obj) or a built-in scene
     #[arg(default_value = DEFAULT_SCENE)]
     scene: String,
+    #[command(flatten)]
+    methods: Methods,
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
     let description = input::load(&args.scene)?;
-    let scene = input::compile(&args.scene, &description)?;
+    let scene = input::compile(&args.scene, &description, &args.methods.choices)?;
     print::line(Summary(&description, &scene))
 }
 

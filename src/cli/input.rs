@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::progress::{Progress, Spinner};
+use raypacket::geometry::methods::Choice;
 use raypacket::scene::{self, Description, Scene};
 
 /// Mesh files from this length on get a bar.
@@ -28,11 +29,11 @@ pub fn load_all(names: &[String]) -> Result<Vec<Description>, Failure> {
 /// Scenes of more primitives than this may take a second to build a tree of.
 const MANY: usize = 500_000;
 
-/// Compiles what [`load`] read from `name`.
-pub fn compile(name: &str, description: &Description) -> Result<Scene, Failure> {
+/// Compiles what [`load`] read from `name`, with methods that were asked for.
+pub fn compile(name: &str, description: &Description, choices: &[Choice]) -> Result<Scene, Failure> {
     let primitives = description.primitives() - description.planes.len();
     let _spinner = (primitives > MANY).then(|| Spinner::new(format!("building the tree of {primitives} primitives")));
-    scene::compile(description).map_err(|e| Failure::input(format!("{name}: {e}")))
+    scene::compile_with(description, None, choices).map_err(|e| Failure::input(format!("{name}: {e}")))
 }
 
 /// Says whether what [`load`] read from `name` could be compiled.

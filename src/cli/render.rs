@@ -1,6 +1,6 @@
 //! `raypacket render`: a picture into a file.
 
-use super::args::{DEFAULT_SCENE, Size, Threads, count};
+use super::args::{DEFAULT_SCENE, Methods, Size, Threads, count};
 use super::progress::Progress;
 use super::{Failure, input, print};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -30,6 +30,8 @@ pub struct Args {
     /// How many rays are traced at once, or the slow scalar tracer that all else is checked against
     #[arg(long, default_value = "x8", value_parser = tracer())]
     kernel: Tracer,
+    #[command(flatten)]
+    methods: Methods,
     #[command(flatten)]
     threads: Threads,
     /// Write what the rays through the pixels' centres hit, instead of colours
@@ -78,7 +80,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let description = input::load(&args.scene)?;
     let target = Target::new(&args.output).map_err(Failure::input)?;
     let threads = threads?;
-    let scene = input::compile(&args.scene, &description)?;
+    let scene = input::compile(&args.scene, &description, &args.methods.choices)?;
 
     let started = Instant::now();
     let picture = match args.aov {

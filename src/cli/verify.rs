@@ -1,6 +1,6 @@
 //! `raypacket verify`: every kernel against the reference.
 
-use super::args::{Json, Size};
+use super::args::{Json, Methods, Size};
 use super::{Failure, input, print};
 use raypacket::measure::verify;
 use raypacket::render::Kernel;
@@ -18,6 +18,8 @@ pub struct Args {
     /// The width and height in pixels of the image that is compared
     #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "256x128")]
     size: Size,
+    #[command(flatten)]
+    methods: Methods,
     /// Write the results as JSON, with - to standard output
     #[arg(long, value_name = "FILE|-")]
     json: Option<OsString>,
@@ -38,7 +40,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut reports = Vec::new();
     for (name, scene) in names.iter().zip(&scenes) {
         input::check(name, scene)?;
-        let report = verify::verify(scene, &Kernel::ALL, args.size.width, args.size.height);
+        let report = verify::verify_by(scene, &args.methods.choices, &Kernel::ALL, args.size.width, args.size.height);
         if !matches!(json, Some(Json::Stdout)) {
             print::line(&report)?;
         }

@@ -36,7 +36,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let threads = args.threads.start();
     let description = input::load(&args.scene)?;
     threads?;
-    let scene = input::compile(&args.scene, &description)?;
+    let scene = input::compile(&args.scene, &description, &[])?;
     let options = viewer::Options {
         size: (args.size.width, args.size.height),
         kernel: args.kernel,

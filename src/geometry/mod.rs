@@ -15,6 +15,7 @@ pub(crate) mod face;
 mod flat;
 pub mod fractal;
 mod frame;
+pub mod methods;
 pub mod plane;
 pub mod quad;
 pub mod sphere;

@@ -1,6 +1,6 @@
 //! The sphere |p − center| = radius, seen from outside and inside.
 //!
-//! Three methods with one signature, all for unit directions, with f = o − center and c = |f|² − r²:
+//! Four methods with one signature, all for unit directions, with f = o − center and c = |f|² − r²:
 //!
 //! - [`quadratic`]: t = −b ± √(b² − c), b = f·d. The textbook's. b² − c cancels for a small sphere far away
 //!   (error ε |f|² against r²) and −b ± √ for a large one close by.
@@ -10,11 +10,14 @@
 //!   Ray Tracing Gems (2019), ch. 7: discriminant r² − |f − b d|², and the root that cancels from the other by c / q.
 //!   The silhouette is off by at most 5 ε |f|, t by 8 ε t + 4 ε |f|² / (r cos θ) at incidence θ (ε = 2⁻²⁴). Right
 //!   from outside, inside and on the sphere: a ray that leaves the surface hits nothing, one that enters the far side.
+//! - [`double`]: `quadratic` in `f64`, with f exact and for directions of any length; t is rounded once, but for what
+//!   cancels: the silhouette is off by at most 2⁻⁴⁹ |f|² / r.
 //!
 //! A ray that touches the sphere hits it when the computed discriminant is not negative.
 
+use super::methods::SphereMethod;
 use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface};
-use crate::math::{LaneMask, Lanes, Vec3, angle};
+use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3, angle};
 
 /// Spheres, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,6 +28,10 @@ pub struct Spheres {
     pub sides: Vec<Sides>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    /// How all are tested.
+    pub method: SphereMethod,
+    /// How their normals come to unit length ([`Vec3::normalize_by`]).
+    pub steps: Option<u32>,
 }
 
 /// A sphere as stored.
@@ -36,6 +43,8 @@ pub struct SphereRecord {
     pub radius: f32,
     /// Which side is there.
     pub sides: Sides,
+    /// How it is tested.
+    pub method: SphereMethod,
 }
 
 /// What a sphere's test needs of it and of the rays' origin.
@@ -47,8 +56,12 @@ pub struct SeenSphere<L> {
     pub c: L,
     /// r².
     pub r2: L,
+    /// What f is short of o − center for its rounding, and r; for [`double`] alone.
+    pub exact: (Vec3<L>, L),
     /// Which side is there.
     pub sides: Sides,
+    /// How it is tested.
+    pub method: SphereMethod,
 }
 
 impl Spheres {
@@ -87,26 +100,40 @@ impl Primitives for Spheres {
     }
     #[inline(always)]
     fn record(&self, i: usize) -> SphereRecord {
-        SphereRecord { center: self.center(i).into(), radius: self.radius(i), sides: self.sides[i] }
+        let (center, radius) = (self.center(i).into(), self.radius(i));
+        SphereRecord { center, radius, sides: self.sides[i], method: self.method }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &SphereRecord, origin: Vec3<L>) -> SeenSphere<L> {
-        SeenSphere::new(Vec3::splat(r.center.into()), L::splat(r.radius), r.sides, origin)
+        SeenSphere::new(Vec3::splat(r.center.into()), L::splat(r.radius), r.sides, r.method, origin)
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenSphere<f32>) -> SeenSphere<L> {
-        SeenSphere { f: Vec3::splat(s.f.into()), c: L::splat(s.c), r2: L::splat(s.r2), sides: s.sides }
+        SeenSphere {
+            f: Vec3::splat(s.f.into()),
+            c: L::splat(s.c),
+            r2: L::splat(s.r2),
+            exact: (Vec3::splat(s.exact.0.into()), L::splat(s.exact.1)),
+            sides: s.sides,
+            method: s.method,
+        }
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenSphere<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        if SIDED { one_sided(seen, *d, t_min, t_max) } else { stable(seen, *d, t_min, t_max) }
+        match seen.method {
+            SphereMethod::Stable if SIDED => one_sided(seen, *d, t_min, t_max),
+            SphereMethod::Stable => stable(seen, *d, t_min, t_max),
+            SphereMethod::Quadratic => quadratic(seen, *d, t_min, t_max),
+            SphereMethod::Geometric => geometric(seen, *d, t_min, t_max),
+            SphereMethod::Double => double(seen, *d, t_min, t_max),
+        }
     }
 
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let center = Vec3::splat(self.center(i));
         let radius = self.radius(i);
-        let normal = (point - center).normalize();
+        let normal = (point - center).normalize_by(self.steps);
         Surface { point: normal.mul_add(L::splat(radius), center), normal, reach: radius }
     }
     #[inline(always)]
@@ -123,10 +150,18 @@ impl Primitives for Spheres {
 impl<L: Lanes> SeenSphere<L> {
     /// A sphere as seen from `origin`.
     #[inline(always)]
-    pub fn new(center: Vec3<L>, radius: L, sides: Sides, origin: Vec3<L>) -> Self {
+    pub fn new(center: Vec3<L>, radius: L, sides: Sides, method: SphereMethod, origin: Vec3<L>) -> Self {
         let f = origin - center;
         let r2 = radius * radius;
-        Self { f, c: f.dot(f) - r2, r2, sides }
+        let lost = match method {
+            // What a subtraction rounds off, exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
+            SphereMethod::Double => {
+                let part = f - origin;
+                (origin - (f - part)) - (center + part)
+            }
+            _ => Vec3::splat(glam::Vec3::ZERO),
+        };
+        Self { f, c: f.dot(f) - r2, r2, exact: (lost, radius), sides, method }
     }
 }
 
@@ -209,17 +244,48 @@ pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
     inside.any().then_some((t, inside))
 }
 
+/// [`quadratic`] in `f64`; see the module's text.
+#[inline(never)]
+pub fn double<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    let lanes = |v: L| {
+        let mut lanes = [0.0; MOST_LANES];
+        v.store(&mut lanes);
+        lanes.map(f64::from)
+    };
+    let (lost, radius) = seen.exact;
+    let f = [(seen.f.x, lost.x), (seen.f.y, lost.y), (seen.f.z, lost.z)].map(|(f, lost)| (lanes(f), lanes(lost)));
+    let d = [direction.x, direction.y, direction.z].map(lanes);
+    let (radius, t_min) = (lanes(radius), lanes(t_min));
+    let mut t = [f32::NAN; MOST_LANES];
+    for i in 0..L::WIDTH {
+        let f = [0, 1, 2].map(|axis| f[axis].0[i] + f[axis].1[i]);
+        let d = [0, 1, 2].map(|axis| d[axis][i]);
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (a, b) = (dot(d, d), dot(f, d));
+        // NaN where there is no root, and so no hit.
+        let root = (b * b - a * (dot(f, f) - radius[i] * radius[i])).sqrt();
+        let near = (-b - root) / a;
+        t[i] = if near > t_min[i] { near as f32 } else { ((root - b) / a) as f32 };
+    }
+    let t = L::load(&t);
+    let inside = t.gt(L::load(&t_min.map(|t| t as f32))) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use glam::{Vec3 as V, vec3};
 
     type Method = fn(&SeenSphere<f32>, Vec3<f32>, f32, f32) -> Nearest<f32>;
-    const METHODS: [(&str, Method); 3] = [("quadratic", quadratic), ("geometric", geometric), ("stable", stable)];
+    const METHODS: [(&str, Method); 4] =
+        [("quadratic", quadratic), ("geometric", geometric), ("stable", stable), ("double", double)];
 
     fn t(method: Method, center: V, radius: f32, origin: V, direction: V) -> Option<f32> {
         let mut spheres = Spheres::default();
         spheres.push(center, radius, Sides::Both, 0);
+        // So that what it needs is there.
+        spheres.method = SphereMethod::Double;
         method(&Spheres::seen(&spheres.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
 

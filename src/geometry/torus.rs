@@ -30,6 +30,7 @@
 //! **Inside, and on the surface.** From inside the far side is hit. An origin within 8 ε (R + r) of the surface counts
 //! as on it: a ray that leaves it hits nothing there, one that enters the far side.
 
+use super::methods::TorusMethod;
 use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
 use crate::math::{LaneMask, Lanes, Vec3, angle, powf};
@@ -61,6 +62,8 @@ pub struct Tori {
     pub near: Vec<f32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    /// How all are tested.
+    pub method: TorusMethod,
     balls: Balls,
 }
 

@@ -1,7 +1,7 @@
 //! The triangle with corners a, b, c; its front is where they run counter-clockwise. A triangle without area is hit by
 //! no ray, or, as N is rounded, by one that meets the line it has shrunk to; one seen edge-on likewise.
 //!
-//! Two methods:
+//! Three methods:
 //!
 //! - [`watertight`]: the default. After Woop, Benthin, Wald, *Watertight Ray/Triangle Intersection*, JCGT 2 (2013),
 //!   §3: the corners are sheared along the ray's largest component, each by itself and so alike for all triangles that
@@ -14,9 +14,15 @@
 //!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two
 //!   triangles that share an edge.
 //!
-//! The plane is missed by at most 8 ε (|o − a| + longest edge) / sin of the smallest angle, by both.
+//! - [`edge_planes`]: the side of a direction to the three planes through the origin and an edge, d·(b × c) and so on,
+//!   which rays of one origin share (Davidovič, Engelhardt, Georgiev, Slusallek, Dachsbacher, *3D Rasterization*, 2012, §2).
+//!   Alike on both sides of an edge, as every product rounds alike, but rounded by itself for each: a crack of some
+//!   ε |a| may open at a corner.
+//!
+//! The plane is missed by at most 8 ε (|o − a| + longest edge) / sin of the smallest angle, by all.
 
 use super::face::{self, between};
+use super::methods::TriangleMethod;
 use super::{Nearest, Primitives, Sides, Surface, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 
@@ -38,6 +44,8 @@ pub struct Triangles {
     pub normals: Attribute<glam::Vec3>,
     /// Texture coordinates at the corners; none where no triangle has any.
     pub uvs: Attribute<glam::Vec2>,
+    /// How all are tested.
+    pub method: TriangleMethod,
 }
 
 /// What vertices have beside their place, shared by the triangles around them.
@@ -73,6 +81,8 @@ pub struct TriangleRecord {
     pub n: Vec3<f32>,
     /// Which side is there.
     pub sides: Sides,
+    /// How it is tested.
+    pub method: TriangleMethod,
 }
 
 /// What [`watertight`] needs of a triangle and of the rays' origin.
@@ -86,6 +96,8 @@ pub struct SeenTriangle<L> {
     pub height: L,
     /// Which side is there.
     pub sides: Sides,
+    /// How it is tested.
+    pub method: TriangleMethod,
 }
 
 /// A unit direction, its axis of the largest component and the shear that turns it into that axis.
@@ -208,13 +220,13 @@ impl Primitives for Triangles {
     #[inline(always)]
     fn record(&self, i: usize) -> TriangleRecord {
         let corners = self.corners(i).map(Vec3::from);
-        TriangleRecord { corners, n: normal(corners), sides: self.sides[i] }
+        TriangleRecord { corners, n: normal(corners), sides: self.sides[i], method: self.method }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &TriangleRecord, origin: Vec3<L>) -> SeenTriangle<L> {
         let corners = r.corners.map(|c| Vec3::splat(c.into()) - origin);
         let n = Vec3::splat(r.n.into());
-        SeenTriangle { corners, n, height: corners[0].dot(n), sides: r.sides }
+        SeenTriangle { corners, n, height: corners[0].dot(n), sides: r.sides, method: r.method }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTriangle<f32>) -> SeenTriangle<L> {
@@ -223,14 +235,22 @@ impl Primitives for Triangles {
             n: Vec3::splat(s.n.into()),
             height: L::splat(s.height),
             sides: s.sides,
+            method: s.method,
         }
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-        if !SIDED || seen.sides == Sides::Both {
+        if !SIDED {
             return watertight(seen, aim, t_min, t_max);
         }
-        let (t, inside) = watertight(seen, aim, t_min, t_max)?;
+        let (t, inside) = match seen.method {
+            TriangleMethod::Watertight => watertight(seen, aim, t_min, t_max),
+            TriangleMethod::MollerTrumbore => moller_trumbore(&SeenEdges::of(seen), aim.direction, t_min, t_max),
+            TriangleMethod::EdgePlanes => edge_planes(seen, aim.direction, t_min, t_max),
+        }?;
+        if seen.sides == Sides::Both {
+            return Some((t, inside));
+        }
         let inside = inside & there(seen.sides, seen.n.dot(aim.direction));
         inside.any().then_some((t, inside))
     }
@@ -352,6 +372,15 @@ pub struct SeenEdges<L> {
     pub height: L,
 }
 
+impl<L: Lanes> SeenEdges<L> {
+    /// A triangle as seen by [`watertight`], by its edges.
+    #[inline(always)]
+    pub fn of(seen: &SeenTriangle<L>) -> Self {
+        let [a, b, c] = seen.corners;
+        Self { n: seen.n, u: (c - a).cross(a), v: a.cross(b - a), height: seen.height }
+    }
+}
+
 impl SeenEdges<f32> {
     /// A triangle as seen from `origin`.
     pub fn new(r: &TriangleRecord, origin: Vec3<f32>) -> Self {
@@ -383,6 +412,21 @@ pub fn moller_trumbore<L: Lanes>(seen: &SeenEdges<L>, direction: Vec3<L>, t_min:
     inside.any().then_some((t, inside))
 }
 
+/// See the module's text.
+#[inline(always)]
+pub fn edge_planes<L: Lanes>(seen: &SeenTriangle<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    // Not fused, so that b × a is −(a × b) to the bit.
+    let plane = |p: Vec3<L>, q: Vec3<L>| {
+        Vec3::new(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x).dot(direction)
+    };
+    let [a, b, c] = seen.corners;
+    let (u, v, w) = (plane(b, c), plane(c, a), plane(a, b));
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let t = seen.height / seen.n.dot(direction);
+    let inside = (least.ge(L::zero()) | most.le(L::zero())) & t.gt(t_min) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -396,6 +440,8 @@ mod tests {
         let found = watertight(&Triangles::seen(&record, o), &aim, 0.0, f32::INFINITY).map(|(t, _)| t);
         let edges = SeenEdges::new(&record, o);
         assert_eq!(moller_trumbore(&edges, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
+        let seen = Triangles::seen(&record, o);
+        assert_eq!(edge_planes(&seen, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
         found
     }
 

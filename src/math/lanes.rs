@@ -63,6 +63,9 @@ pub trait Lanes:
     }
     /// Square root, correctly rounded; NaN below zero.
     fn sqrt(self) -> Self;
+    /// 1 / √ as the processor estimates it, within 1.5 · 2⁻¹²; the bits are the processor's. Elsewhere than on x86-64 a
+    /// root and a division.
+    fn estimate_inverse_root(self) -> Self;
     /// Magnitude.
     fn abs(self) -> Self;
     /// The largest whole number not above.
@@ -175,6 +178,10 @@ impl Lanes for f32 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn estimate_inverse_root(self) -> Self {
+        f32x4::splat(self).estimate_inverse_root().to_array()[0]
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -295,6 +302,10 @@ macro_rules! wide_lanes {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 $float::sqrt(self)
+            }
+            #[inline(always)]
+            fn estimate_inverse_root(self) -> Self {
+                if cfg!(target_arch = "x86_64") { self.recip_sqrt() } else { Self::ONE / $float::sqrt(self) }
             }
             #[inline(always)]
             fn abs(self) -> Self {

@@ -15,4 +15,4 @@ pub use isa::isa;
 pub use lanes::{LaneMask, Lanes, MOST_LANES};
 pub use power::{exp2, powf};
 pub use srgb::linear_of_bytes;
-pub use vec3::Vec3;
+pub use vec3::{Vec3, inverse_root};

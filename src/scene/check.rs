@@ -92,6 +92,11 @@ fn settings(description: &Description) -> Result<(), Invalid> {
         "settings.max_depth".into()
     })?;
     rule(color(description.settings.ambient), || "settings.ambient".into())?;
+    let tolerance = description.settings.tolerance;
+    rule(
+        require(tolerance >= 0.0 && tolerance.is_finite(), || format!("must be a number from 0 on, got {tolerance}")),
+        || "settings.tolerance".into(),
+    )?;
     match &description.sky {
         Sky::Color(c) => rule(color(*c), || "sky.color".into()),
         Sky::Gradient { below, above } => {

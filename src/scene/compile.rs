@@ -8,6 +8,7 @@ use glam::Vec3;
 use super::plan::Structure;
 use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
 use crate::bvh::{Aabb, Bvh, Class, Source};
+use crate::geometry::methods::Choice;
 use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
 
 /// A compiled scene: SoA arrays, ready to trace.
@@ -138,6 +139,18 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
 /// # Errors
 /// [`Invalid`] when [`check`] finds fault with it.
 pub fn compile_as(description: &Description, structure: Option<Structure>) -> Result<Scene, Invalid> {
+    compile_with(description, structure, &[])
+}
+
+/// The same, with methods of the caller's choice, too, of which the last of a kind counts.
+///
+/// # Errors
+/// [`Invalid`] when [`check`] finds fault with it.
+pub fn compile_with(
+    description: &Description,
+    structure: Option<Structure>,
+    choices: &[Choice],
+) -> Result<Scene, Invalid> {
     check(description)?;
     let mut planes = Planes::default();
     for p in &description.planes {
@@ -190,9 +203,12 @@ pub fn compile_as(description: &Description, structure: Option<Structure>) -> Re
         .chain((0..tori.len()).map(|i| tori.bounds(i)))
         .chain((0..fractals.len()).map(|i| fractals.bounds(i)))
         .map(|[min, max]| Aabb { min, max })
-        .collect();
-    let mut plan = Plan::of(description);
-    plan.structure = structure.unwrap_or(plan.structure);
+        .collect::<Vec<_>>();
+    let plan = Plan::of(description, &boxes, structure, choices);
+    spheres.method = plan.methods.sphere;
+    spheres.steps = plan.methods.normalize.steps();
+    triangles.method = plan.methods.triangle;
+    tori.method = plan.methods.torus;
     let mut bodies = vec![Body { ior: 1.0, absorption: Vec3::ZERO }];
     let body = |m: &Material| {
         if m.transmission <= 0.0 {

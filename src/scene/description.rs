@@ -80,11 +80,14 @@ pub struct Settings {
     pub attenuation: bool,
     /// Light that reaches every point from everywhere, as irradiance.
     pub ambient: Vec3,
+    /// How far a silhouette may be off for a cheaper method's sake, in pixels of a picture of 1024 rows; not below 0. So
+    /// much of a pixel may change where it is averaged over.
+    pub tolerance: f32,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_depth: 6, attenuation: true, ambient: Vec3::ZERO }
+        Self { max_depth: 6, attenuation: true, ambient: Vec3::ZERO, tolerance: 1.0 / 255.0 }
     }
 }
 

@@ -1,6 +1,7 @@
 //! From what the user wrote ([`Description`]) to what is traced ([`Scene`]).
 mod builtin;
 mod check;
+mod choose;
 mod compile;
 mod description;
 mod plan;
@@ -9,7 +10,7 @@ mod read;
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
-pub use compile::{Body, First, Scene, compile, compile_as};
+pub use compile::{Body, First, Scene, compile, compile_as, compile_with};
 pub use description::*;
 pub use plan::{Plan, ShadowStart, Structure};
 pub use read::*;

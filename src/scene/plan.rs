@@ -4,7 +4,11 @@ use std::fmt;
 
 use glam::Vec3;
 
-use super::{Description, Sides};
+use super::{Description, Sides, choose};
+use crate::bvh::Aabb;
+use crate::geometry::methods::{
+    Choice, Methods, NormalizeMethod, OffsetMethod, SphereMethod, TorusMethod, TriangleMethod,
+};
 
 /// Where a light's shadow rays start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,14 +60,24 @@ pub struct Plan {
     pub highlights: bool,
     /// Where each light's shadow rays start.
     pub shadows: Vec<ShadowStart>,
+    /// What primitives are tested by, vectors normalised and rays moved off surfaces.
+    pub methods: Methods,
+    /// Why spheres are tested as they are.
+    why: String,
     mirrors: usize,
     glasses: usize,
     materials: usize,
 }
 
 impl Plan {
-    /// The plan for a description.
-    pub fn of(description: &Description) -> Self {
+    /// The plan for a description, with a structure and methods of the caller's choice. `boxes` are around all from the
+    /// quads on.
+    pub(super) fn of(
+        description: &Description,
+        boxes: &[Aabb],
+        structure: Option<Structure>,
+        choices: &[Choice],
+    ) -> Self {
         let used = used_materials(description);
         let count = |has: &dyn Fn(&super::Material) -> bool| {
             description.materials.iter().zip(&used).filter(|(m, u)| **u && has(m)).count()
@@ -85,19 +99,27 @@ impl Plan {
         let mirrors = count(&|m| m.reflectance > 0.0);
         let glasses = count(&|m| m.transmission > 0.0);
         let weight = primitives[1] + 4 * primitives[2..].iter().sum::<usize>();
+        let structure = structure.unwrap_or(if weight < TREE_FROM { Structure::None } else { Structure::Tree });
+        let chosen = choose::sphere(description, boxes, structure);
+        let planned = Methods { sphere: chosen.method, ..Methods::default() };
+        let methods = choices.iter().fold(planned, |methods, &choice| methods.with(choice));
+        // What tests triangles, and spheres in trees, otherwise than by default is with the rare things.
+        let rare = one_sided
+            || primitives[3..].iter().any(|n| *n > 0)
+            || methods.triangle != TriangleMethod::default()
+            || (methods.sphere != SphereMethod::default() && structure == Structure::Tree);
         Self {
             primitives,
-            structure: if weight < TREE_FROM { Structure::None } else { Structure::Tree },
-            rare: one_sided || primitives[3..].iter().any(|n| *n > 0),
-            rich: one_sided
-                || primitives[3..].iter().any(|n| *n > 0)
-                || glasses > 0
-                || description.meshes.iter().any(|m| !m.normals.is_empty()),
+            structure,
+            rare,
+            rich: rare || glasses > 0 || description.meshes.iter().any(|m| !m.normals.is_empty()),
             smooth: description.meshes.iter().any(|m| !m.normals.is_empty()),
             waves: if mirrors + glasses == 0 { 1 } else { description.settings.max_depth },
             refracts: glasses > 0,
             absorbs: count(&|m| m.transmission > 0.0 && m.absorption != Vec3::ZERO) > 0,
             highlights: count(&|m| m.specular > 0.0) > 0,
+            methods,
+            why: if methods.sphere == chosen.method { chosen.reason } else { "as asked for".to_owned() },
             shadows: description.lights.iter().map(|l| shadow_start(description, l.position)).collect(),
             mirrors,
             glasses,
@@ -176,15 +198,32 @@ fn used_materials(description: &Description) -> Vec<bool> {
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let sphere = match self.methods.sphere {
+            SphereMethod::Stable => {
+                format!("method `stable`, right from inside, on and far from a sphere: {}", self.why)
+            }
+            other => format!("method `{}`: {}", other.name(), self.why),
+        };
+        let triangle = match self.methods.triangle {
+            TriangleMethod::Watertight => {
+                "method `watertight`: no ray slips between triangles that share an edge or corner".to_owned()
+            }
+            other => format!("method `{}`, as asked for", other.name()),
+        };
+        let torus = match self.methods.torus {
+            TorusMethod::MonotoneNewton => {
+                "method `monotone_newton`, which loses no root, single or double, near or far".to_owned()
+            }
+        };
         let methods = [
             ("planes", "unbounded; left out where no ray of a batch turns to it"),
-            ("spheres", "method `stable`, right from inside, on and far from a sphere"),
-            ("triangles", "method `watertight`: no ray slips between triangles that share an edge or corner"),
+            ("spheres", &sphere),
+            ("triangles", &triangle),
             ("quads", "method `moller_trumbore`, as nothing shares their edges"),
             ("boxes", "method `slabs`: no ray slips through an edge or corner"),
             ("cylinders", "method `stable`; a closed one is an endless one within a slab, without cracks"),
             ("cones", "method `stable`, in the cone's own product, so that its tip and slant do not cancel"),
-            ("tori", "method `monotone_newton`, which loses no root, single or double, near or far"),
+            ("tori", &torus),
             ("fractals", "method `sphere_trace`, in steps that end on the grid's planes"),
         ];
         for ((kind, method), count) in methods.into_iter().zip(self.primitives).filter(|(_, count)| *count > 0) {
@@ -200,7 +239,7 @@ impl fmt::Display for Plan {
             Structure::Tree => writeln!(
                 f,
                 "structure   tree, as {TREE_FROM} spheres or {} others pay for one: groups of rays that run together \
-                 descend behind a beam around them, others one by one",
+                 descend behind a beam around them, others in packets of sixteen",
                 TREE_FROM / 4
             )?,
         }
@@ -236,6 +275,13 @@ impl fmt::Display for Plan {
                 "shadows     {streams} a wave towards lights over {FARTHEST} sizes from a primitive, or from \
                  what is seen: too far to aim at it from there"
             )?;
+        }
+        let Methods { normalize, offset, .. } = self.methods;
+        if normalize != NormalizeMethod::default() {
+            writeln!(f, "unit        method `{}`, as asked for", normalize.name())?;
+        }
+        if offset != OffsetMethod::default() {
+            writeln!(f, "offset      method `{}`, as asked for", offset.name())?;
         }
         if self.shadows.is_empty() {
             writeln!(f, "shadows     none: there is no light")?;

@@ -1,6 +1,6 @@
 //! One light's share of a wave: its shadow rays, and what arrives.
 
-use super::spawn::{self, ShadowRay};
+use super::spawn::{self, Offsets, ShadowRay};
 use super::surface::Surfaces;
 use super::wave::{Observer, Wave};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
@@ -85,8 +85,9 @@ impl Lighting {
         let position = scene.lights[light].position;
         self.rays.set_common_origin(position);
         let mut directions = Extent::<L>::empty();
+        let offsets = Offsets::of(&scene.plan.methods);
         let count = self.fire::<L, RICH>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
-            let ray = spawn::shadow_from_light(Vec3::splat(position), point, normal, lift);
+            let ray = spawn::shadow_from_light(&offsets, Vec3::splat(position), point, normal, lift);
             directions.include(ray.direction, L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero()));
             ray
         });
@@ -105,8 +106,9 @@ impl Lighting {
         let position = Vec3::splat(scene.lights[light].position);
         self.rays.common_origin = false;
         let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
+        let offsets = Offsets::of(&scene.plan.methods);
         let count = self.fire::<L, RICH>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
-            let ray = spawn::shadow_from_point(position, point, normal, lift);
+            let ray = spawn::shadow_from_point(&offsets, position, point, normal, lift);
             let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
             directions.include(ray.direction, active);
             origins.include(ray.origin, active);

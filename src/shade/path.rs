@@ -2,7 +2,7 @@
 
 use super::body::{Inside, Passage, around};
 use super::refract::split;
-use super::spawn;
+use super::spawn::{self, Offsets};
 use super::surface::{shading_normal, surface};
 use crate::math::Vec3 as Lane3;
 use crate::scene::{LEAST_WEIGHT, Scene, ShadowStart};
@@ -97,7 +97,7 @@ impl Tree<'_> {
             point: s.point,
             normal: facing(shading_normal(self.scene, hit.primitive, &s)),
             geometric: facing(s.normal),
-            lift: spawn::lift::<f32>(s.point, s.reach),
+            lift: Offsets::of(&self.scene.plan.methods).lift::<f32>(s.point, s.reach),
         };
         self.shadows(&arrival);
         if ray.depth < self.scene.plan.waves {
@@ -111,7 +111,8 @@ impl Tree<'_> {
                 ShadowStart::Light => spawn::shadow_from_light::<f32>,
                 ShadowStart::Point => spawn::shadow_from_point::<f32>,
             };
-            let ray = spawn(light.position.into(), at.point, at.geometric, at.lift);
+            let ray =
+                spawn(&Offsets::of(&self.scene.plan.methods), light.position.into(), at.point, at.geometric, at.lift);
             let from = Vec3::from(at.point);
             let direction = (light.position - from).normalize();
             let faces = !self.scene.plan.smooth || Vec3::from(at.normal).dot(direction) > 0.0;

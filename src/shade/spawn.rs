@@ -14,10 +14,53 @@
 //! along the normal on the side it belongs to, does not meet it by mistake, and needs no `t_min` and no shortened
 //! `t_max`; only a ray that ends at a light itself is shortened, for the surface the light may lie on.
 
-use crate::math::{Lanes, Vec3};
+//!
+//! [`Offsets`] has the fixed epsilons, too, to be compared with.
+
+use crate::geometry::methods::{Methods, OffsetMethod};
+use crate::math::{Lanes, Vec3, inverse_root};
 
 /// ε, the unit roundoff: half the distance from 1 to the next number.
 const ROUNDOFF: f32 = 0.5 * f32::EPSILON;
+
+/// The fixed epsilon, and the one that scales with the coordinates.
+const EPSILON: f32 = 1e-4;
+
+/// How far off what they leave rays start and end, and how they come to unit length: a scene's methods as numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offsets {
+    /// Part of a primitive's reach.
+    reach: f32,
+    /// Part of a point's largest coordinate.
+    coordinate: f32,
+    /// Part of a shadow ray's length.
+    length: f32,
+    /// World units.
+    fixed: f32,
+    /// See [`Vec3::normalize_by`].
+    steps: Option<u32>,
+}
+
+impl Offsets {
+    /// By a scene's methods.
+    pub fn of(methods: &Methods) -> Self {
+        let none = Self { reach: 0.0, coordinate: 0.0, length: 0.0, fixed: 0.0, steps: methods.normalize.steps() };
+        match methods.offset {
+            OffsetMethod::Derived => {
+                Self { reach: 8.0 * ROUNDOFF, coordinate: 9.0 * ROUNDOFF, length: 12.0 * ROUNDOFF, ..none }
+            }
+            OffsetMethod::None => none,
+            OffsetMethod::Fixed => Self { fixed: EPSILON, ..none },
+            OffsetMethod::Scaled => Self { coordinate: EPSILON, ..none },
+        }
+    }
+
+    /// How far from the surface a ray starts that leaves it at `point`.
+    #[inline(always)]
+    pub fn lift<L: Lanes>(&self, point: Vec3<L>, reach: L) -> L {
+        point.max_abs().mul_add(L::splat(self.coordinate), reach * L::splat(self.reach)) + L::splat(self.fixed)
+    }
+}
 
 /// A shadow ray between a light and a point, and what the light does there.
 #[derive(Clone, Copy, Debug)]
@@ -34,24 +77,36 @@ pub struct ShadowRay<L> {
     pub inverse: L,
 }
 
-/// The ray from `light` to `point`, on the side of the surface that `normal` points to; `lift` is [`lift`]'s.
+/// The ray from `light` to `point`, on the side of the surface that `normal` points to; `lift` is [`Offsets::lift`]'s.
 #[inline(always)]
-pub fn shadow_from_light<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> ShadowRay<L> {
+pub fn shadow_from_light<L: Lanes>(
+    offsets: &Offsets,
+    light: Vec3<L>,
+    point: Vec3<L>,
+    normal: Vec3<L>,
+    lift: L,
+) -> ShadowRay<L> {
     let away = point - light;
     // The sum of the magnitudes stands for the distance; it is never less.
     let length = away.x.abs() + away.y.abs() + away.z.abs();
-    let lifted = normal.mul_add(length.mul_add(L::splat(12.0 * ROUNDOFF), lift), point);
-    let (direction, t_max, inverse) = unit(lifted - light);
+    let lifted = normal.mul_add(length.mul_add(L::splat(offsets.length), lift), point);
+    let (direction, t_max, inverse) = unit(lifted - light, offsets.steps);
     ShadowRay { origin: light, direction, t_max, cosine: -normal.dot(direction), inverse }
 }
 
 /// The same ray from `point` to `light`: for a light so far away that a ray from there would miss small things. It ends
 /// a lift before the light, by the same bound, so that a surface through the light does not block it.
 #[inline(always)]
-pub fn shadow_from_point<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<L>, lift: L) -> ShadowRay<L> {
+pub fn shadow_from_point<L: Lanes>(
+    offsets: &Offsets,
+    light: Vec3<L>,
+    point: Vec3<L>,
+    normal: Vec3<L>,
+    lift: L,
+) -> ShadowRay<L> {
     let origin = normal.mul_add(lift, point);
-    let (direction, length, inverse) = unit(light - origin);
-    let slack = length.mul_add(L::splat(12.0 * ROUNDOFF), light.max_abs() * L::splat(9.0 * ROUNDOFF));
+    let (direction, length, inverse) = unit(light - origin, offsets.steps);
+    let slack = length.mul_add(L::splat(offsets.length), offsets.lift(light, L::zero()));
     // Not below 0, which would mark the ray inactive: a point that close to the light is lit.
     let t_max = (length - slack).max(L::zero());
     ShadowRay { origin, direction, t_max, cosine: normal.dot(direction), inverse }
@@ -59,8 +114,13 @@ pub fn shadow_from_point<L: Lanes>(light: Vec3<L>, point: Vec3<L>, normal: Vec3<
 
 /// A vector's direction, length and the length's inverse.
 #[inline(always)]
-fn unit<L: Lanes>(v: Vec3<L>) -> (Vec3<L>, L, L) {
-    let length = v.dot(v).sqrt();
+fn unit<L: Lanes>(v: Vec3<L>, steps: Option<u32>) -> (Vec3<L>, L, L) {
+    let length2 = v.dot(v);
+    if let Some(steps) = steps {
+        let inverse = inverse_root(length2, steps);
+        return (v * inverse, length2 * inverse, inverse);
+    }
+    let length = length2.sqrt();
     let inverse = L::splat(1.0) / length;
     (v * inverse, length, inverse)
 }
@@ -79,10 +139,4 @@ pub fn mirror<L: Lanes>(direction: Vec3<L>, normal: Vec3<L>) -> Vec3<L> {
 pub fn mirror_above<L: Lanes>(direction: Vec3<L>, normal: Vec3<L>, geometric: Vec3<L>) -> Vec3<L> {
     let r = mirror(direction, normal);
     r.select(r.dot(geometric).gt(L::zero()), mirror(direction, geometric))
-}
-
-/// How far from the surface a ray starts that leaves it at `point`.
-#[inline(always)]
-pub fn lift<L: Lanes>(point: Vec3<L>, reach: L) -> L {
-    point.max_abs().mul_add(L::splat(9.0 * ROUNDOFF), reach * L::splat(8.0 * ROUNDOFF))
 }

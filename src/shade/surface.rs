@@ -1,7 +1,7 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
 use super::body::{Inside, Passage};
-use super::spawn;
+use super::spawn::Offsets;
 use super::texture;
 use super::wave::Wave;
 use crate::geometry::{Primitives, Surface};
@@ -133,7 +133,8 @@ impl Surfaces {
         }
         g.point.store(&mut self.point, at);
         normal.store(&mut self.normal, at);
-        spawn::lift(g.point, g.reach).select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
+        let lift = Offsets::of(&scene.plan.methods).lift(g.point, g.reach);
+        lift.select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
         let own = weight * if RICH { g.own } else { L::splat(1.0) - g.mirror };
         (g.color * own).store(&mut self.color, at);

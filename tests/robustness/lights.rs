@@ -95,7 +95,7 @@ fn a_light_at_the_eye_throws_no_shadow() {
 /// planet's horizon that is more than a pixel, which may then be behind something else: there it proves nothing.
 fn seen_is_lit(mut scene: Description) {
     scene.lights = vec![light(scene.camera.eye)];
-    scene.settings = Settings { max_depth: 1, attenuation: false, ambient: Vec3::ZERO };
+    scene.settings = Settings { max_depth: 1, attenuation: false, ..Settings::default() };
     scene.sky = Sky::Color(Vec3::ZERO);
     scene.materials.iter_mut().for_each(|m| (m.reflectance, m.transmission) = (0.5 * m.reflectance, 0.0));
     let film = picture(&scene, Kernel::X8, SIZE[0], SIZE[1]);

@@ -281,7 +281,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
         let light = |(position, color): Lamp| Light { position, power: color.unwrap_or(intensity) };
         Some(Description {
             camera: self.camera?,
-            settings: Settings { max_depth: DEPTH, attenuation: false, ambient: intensity },
+            settings: Settings { max_depth: DEPTH, attenuation: false, ambient: intensity, ..Settings::default() },
             sky: Sky::Color(self.sky.unwrap_or_default()),
             lights: self.lights.into_iter().map(light).collect(),
             materials: self.materials.all,

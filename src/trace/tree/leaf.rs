@@ -1,8 +1,9 @@
 //! The primitives of a block against the packets of a group.
 
 use crate::bvh::{SphereBlock, TriangleBlock};
+use crate::geometry::methods::TriangleMethod;
 use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, normal, there};
-use crate::geometry::{Primitives, Sides, SphereRecord, Spheres};
+use crate::geometry::{Primitives, Sides, SphereRecord, Spheres, Triangles};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use crate::scene::with_primitive;
 use std::ops::Range;
@@ -23,6 +24,9 @@ impl Walk<'_> {
         limit: f32,
         range: Range<usize>,
     ) -> bool {
+        if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
+            return self.named_triangles::<L, ANY>(block, range);
+        }
         let faces = |axis: usize, near: usize| {
             let [a, b, c] = [0, 1, 2].map(|k| f32x8::from(block.corners[k][axis]));
             near_first(near, Lanes::min(a, Lanes::min(b, c)), Lanes::max(a, Lanes::max(b, c)))
@@ -56,6 +60,17 @@ impl Walk<'_> {
                 let Some(inside) = inside else { continue };
                 taken |= self.triangle::<L, ANY, RARE>(at, corners, inside, id);
             }
+        }
+        taken
+    }
+
+    /// The triangles of a block by another method than the default.
+    #[inline(never)]
+    pub fn named_triangles<L: Lanes, const ANY: bool>(&mut self, block: &TriangleBlock, range: Range<usize>) -> bool {
+        let mut taken = false;
+        for id in block.id.into_iter().take_while(|&id| id != NONE) {
+            let record = self.scene.triangles.record((id - self.scene.first.triangles) as usize);
+            taken |= self.packets::<Triangles, L, ANY, true>(&record, range.clone(), id);
         }
         taken
     }
@@ -118,7 +133,7 @@ impl Walk<'_> {
             false => Sides::Both,
         };
         let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
-        SphereRecord { center, radius: block.radius[lane], sides }
+        SphereRecord { center, radius: block.radius[lane], sides, method: self.scene.spheres.method }
     }
 
     /// Primitive `id` against the packets of a range.

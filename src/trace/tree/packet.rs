@@ -5,6 +5,7 @@
 
 use crate::bvh::{Child, Kind, MOST_DEPTH, Node};
 use crate::geometry::Spheres;
+use crate::geometry::methods::TriangleMethod;
 use crate::geometry::triangle::{Aim, covers};
 use crate::math::{BATCH, LaneMask, Lanes, NONE, Vec3};
 use wide::f32x16;
@@ -174,6 +175,10 @@ impl Walk<'_> {
     #[inline(always)]
     fn sixteen_triangles<const ANY: bool, const RARE: bool>(&mut self, at: usize, block: usize) {
         let block = &self.bvh.triangles[block];
+        if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
+            self.named_triangles::<f32x16, ANY>(block, at..at + RAYS);
+            return;
+        }
         let aim = Aim::new(Vec3::<f32x16>::load(&self.rays.direction, at));
         let origin = self.rays.origins::<f32x16>(at);
         for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {

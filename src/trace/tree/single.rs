@@ -1,6 +1,7 @@
 //! One ray against eight boxes, triangles or spheres at a time.
 
 use crate::bvh::{Child, Kind, SphereBlock, TriangleBlock};
+use crate::geometry::methods::{SphereMethod, TriangleMethod};
 use crate::geometry::triangle::{Aim, covers_ordered, distance, normal};
 use crate::geometry::{Primitives, Sides, Spheres, sphere};
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
@@ -93,6 +94,9 @@ impl Walk<'_> {
 
     #[inline(always)]
     fn eight_triangles<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, block: &TriangleBlock) -> bool {
+        if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
+            return self.named_triangles::<f32, ANY>(block, ray.i..ray.i + 1);
+        }
         let from = ray.origin.ordered(ray.major);
         let corner = |k: usize| -> [f32x8; 3] {
             let axis = |i: usize| f32x8::from(block.corners[k][(ray.major + 1 + i) % 3]) - from[i];
@@ -112,9 +116,10 @@ impl Walk<'_> {
     #[inline(always)]
     fn eight_spheres<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, block: &SphereBlock) -> bool {
         let (center, radius) = (Vec3::load(&block.center, 0), f32x8::from(block.radius));
-        let seen = sphere::SeenSphere::new(center, radius, Sides::Both, ray.origin);
+        let seen = sphere::SeenSphere::new(center, radius, Sides::Both, SphereMethod::Stable, ray.origin);
         if RARE {
-            return sphere::passes(&seen, ray.direction) && self.each_sphere::<ANY>(ray.i, block);
+            let named = self.scene.spheres.method != SphereMethod::Stable;
+            return (named || sphere::passes(&seen, ray.direction)) && self.each_sphere::<ANY>(ray.i, block);
         }
         let far = f32x8::splat(f32::INFINITY);
         let Some((t, inside)) = sphere::stable(&seen, ray.direction, ray.t_min, far) else { return false };

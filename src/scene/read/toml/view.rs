@@ -38,19 +38,20 @@ pub(super) struct SettingsFile {
     max_depth: u32,
     attenuation: bool,
     ambient: Triple,
+    tolerance: f32,
 }
 
 impl Default for SettingsFile {
     fn default() -> Self {
-        let Settings { max_depth, attenuation, ambient } = Settings::default();
-        Self { max_depth, attenuation, ambient: ambient.into() }
+        let Settings { max_depth, attenuation, ambient, tolerance } = Settings::default();
+        Self { max_depth, attenuation, ambient: ambient.into(), tolerance }
     }
 }
 
 impl SettingsFile {
     pub(super) fn describe(self) -> Settings {
-        let Self { max_depth, attenuation, ambient } = self;
-        Settings { max_depth, attenuation, ambient: ambient.into() }
+        let Self { max_depth, attenuation, ambient, tolerance } = self;
+        Settings { max_depth, attenuation, ambient: ambient.into(), tolerance }
     }
 }
 
