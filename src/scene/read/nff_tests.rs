@@ -91,10 +91,13 @@ fn lights_share_what_the_format_gives_them() {
     for (n, intensity) in [(1, 0.5), (2, 0.353_553_39), (4, 0.25), (7, 0.188_982_24), (16, 0.125)] {
         let d = sound(&"l 1 2 3\n".repeat(n));
         assert!(d.lights.len() == n && d.lights.iter().all(|l| l.power == Vec3::splat(intensity)), "{n}");
-        assert_eq!(d.settings, Settings { max_depth: 5, attenuation: false, ambient: Vec3::splat(intensity) });
+        assert_eq!(
+            d.settings,
+            Settings { max_depth: 5, attenuation: false, ambient: Vec3::splat(intensity), ..Settings::default() }
+        );
     }
     let none = sound("s 0 0 0 1\n");
-    assert_eq!(none.settings, Settings { max_depth: 5, attenuation: false, ambient: Vec3::ZERO });
+    assert_eq!(none.settings, Settings { max_depth: 5, attenuation: false, ..Settings::default() });
     // A coloured light counts, and keeps its colour.
     let d = sound("l 1 2 3 0.5 0.6 0.7 l 3 2 1 l 1 1 1 l 2 2 2 s 0 0 0 1");
     assert_eq!(d.lights[0].power, Vec3::new(0.5, 0.6, 0.7));
