@@ -1,8 +1,8 @@
 //! Balls around primitives, to leave out what no ray of a batch can meet.
 
-use crate::math::MOST_LANES;
+use crate::math::KERNEL_LANES;
 
-/// Balls, column by column, padded with zeros to a multiple of [`MOST_LANES`].
+/// Balls, column by column, padded with zeros to a multiple of [`KERNEL_LANES`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Balls {
     /// Centres.
@@ -27,7 +27,7 @@ impl Balls {
     pub fn push(&mut self, center: glam::Vec3, radius: f32) {
         let i = self.len;
         self.len += 1;
-        let padded = self.len.next_multiple_of(MOST_LANES);
+        let padded = self.len.next_multiple_of(KERNEL_LANES);
         for (column, value) in
             self.center.iter_mut().chain([&mut self.radius]).zip([center.x, center.y, center.z, radius])
         {

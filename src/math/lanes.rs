@@ -131,6 +131,9 @@ fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// The widest of the kernels that a scene can be traced by.
+pub const KERNEL_LANES: usize = 8;
+
 /// The widest of the types: columns that are loaded from any place are padded to a multiple of it.
 pub const MOST_LANES: usize = 16;
 

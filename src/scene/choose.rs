@@ -13,8 +13,8 @@ use crate::geometry::methods::SphereMethod;
 /// ε, the unit roundoff.
 const ROUNDOFF: f64 = 0.5 * f32::EPSILON as f64;
 
-/// The rows of a picture that a method has to be good enough for.
-const ROWS: f64 = 1024.0;
+/// The rows of a picture that a method has to be good enough for: the window's.
+const ROWS: f64 = 512.0;
 
 /// A choice, and why.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Chosen {
 ///
 /// By `quadratic`, b² − c is off by at most 21 ε D² for a ray that starts D from the centre (5 ε D² of c, 7 of b², 8 of a
 /// direction too long or short by 4 ε, 1 of the difference): the answer for a sphere whose radius is off by
-/// δ = 10.5 ε D² / r. That must not be seen: nowhere in the scene larger than `tolerance` pixels of a picture of 1024 rows
+/// δ = 10.5 ε D² / r. That must not be seen: nowhere in the scene larger than `tolerance` pixels of a picture of 512 rows
 /// there where it is nearest to the eye. D is at most the distance to the farthest thing, as rays start at the eye, at
 /// lights and on surfaces.
 pub(super) fn sphere(description: &Description, boxes: &[Aabb], structure: Structure) -> Chosen {

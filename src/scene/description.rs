@@ -80,7 +80,7 @@ pub struct Settings {
     pub attenuation: bool,
     /// Light that reaches every point from everywhere, as irradiance.
     pub ambient: Vec3,
-    /// How far a silhouette may be off for a cheaper method's sake, in pixels of a picture of 1024 rows; not below 0. So
+    /// How far a silhouette may be off for a cheaper method's sake, in pixels of a picture of 512 rows; not below 0. So
     /// much of a pixel may change where it is averaged over.
     pub tolerance: f32,
 }

@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 use raypacket::render::Kernel;
-use raypacket::scene::{Description, Mesh, Plan, Structure, compile};
+use raypacket::scene::{Description, Mesh, Structure, compile};
 use std::process::Command;
 use std::time::Instant;
 
@@ -41,10 +41,10 @@ fn check(side: usize, brute: [usize; 2]) {
     let description = field(side);
     let triangles = description.primitives();
     assert_eq!(triangles, 2 * side * side);
-    assert_eq!(Plan::of(&description).structure, Structure::Tree, "so many ask for a tree");
     let before = memory("VmRSS:");
     let started = Instant::now();
     let scene = compile(&description).expect("a sound scene");
+    assert_eq!(scene.plan.structure, Structure::Tree, "so many ask for a tree");
     let seconds = started.elapsed().as_secs_f64();
     let peak = memory("VmHWM:");
     let bvh = scene.bvh.as_ref().expect("there is a tree");
