@@ -175,6 +175,18 @@ impl Methods {
         }
         self
     }
+
+    /// As choices.
+    pub fn choices(self) -> [Choice; 5] {
+        let Self { sphere, triangle, torus, normalize, offset } = self;
+        [
+            Choice::Sphere(sphere),
+            Choice::Triangle(triangle),
+            Choice::Torus(torus),
+            Choice::Normalize(normalize),
+            Choice::Offset(offset),
+        ]
+    }
 }
 
 impl fmt::Display for Methods {

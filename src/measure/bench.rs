@@ -83,6 +83,8 @@ pub struct Report {
     pub threads: usize,
     /// The instruction set this build uses.
     pub isa: &'static str,
+    /// What primitives are tested by and rays moved off surfaces ([`crate::geometry::methods`]).
+    pub methods: String,
     /// Whether the answers agreed: all kernels with each other to the bit, and a smaller picture with the reference.
     pub valid: bool,
     /// The tree; it is not part of the times below.
@@ -128,17 +130,18 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
         size: options.size,
         threads: rayon::current_num_threads(),
         isa: isa(),
-        valid: same && agrees_with_reference(description),
+        methods: scene.plan.methods.to_string(),
+        valid: same && agrees_with_reference(description, scene),
         build: Build::of(scene),
         results,
     })
 }
 
 /// Whether a picture small enough for brute force agrees with the reference.
-fn agrees_with_reference(description: &Description) -> bool {
+fn agrees_with_reference(description: &Description, scene: &Scene) -> bool {
     let affordable = 200_000_000 / (description.primitives() + 20);
     let height = ((affordable / 2) as f64).sqrt().clamp(8.0, 128.0) as usize;
-    super::verify::verify(description, &Kernel::ALL, 2 * height, height).pass
+    super::verify::verify_by(description, &scene.plan.methods.choices(), &Kernel::ALL, 2 * height, height).pass
 }
 
 /// Times one query at every kernel; also whether all kernels gave the same bits.

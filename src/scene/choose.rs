@@ -82,7 +82,7 @@ fn farthest(bounds: &Aabb, from: DVec3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Material, Sphere, compile, load};
+    use super::super::{Material, Settings, Sphere, compile, compile_with, load};
     use super::*;
     use glam::Vec3;
 
@@ -132,9 +132,24 @@ mod tests {
     #[test]
     fn without_an_end_nothing_is_proven() {
         let mut classic = load("classic").expect("built in");
+        classic.settings.tolerance = 1.0;
         assert_eq!(chosen(&classic), SphereMethod::Stable);
-        // The spheres alone are near enough.
+        // The spheres alone are near enough for that much, but not for the default.
         classic.planes.clear();
         assert_eq!(chosen(&classic), SphereMethod::Quadratic);
+        classic.settings.tolerance = Settings::default().tolerance;
+        assert_eq!(chosen(&classic), SphereMethod::Stable);
+    }
+
+    #[test]
+    fn what_is_asked_for_goes_before_what_is_planned() {
+        let description = pair(1.0, 5.0);
+        let plan = |choice: &str| {
+            let choices = [choice.parse().expect("a method")];
+            compile_with(&description, None, &choices).expect("a sound scene").plan
+        };
+        assert_eq!(plan("sphere=double").methods.sphere, SphereMethod::Double);
+        assert!(plan("sphere=double").to_string().contains("method `double`: as asked for"));
+        assert!(plan("offset=none").to_string().contains("offset      method `none`, as asked for"));
     }
 }

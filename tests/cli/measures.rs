@@ -47,6 +47,30 @@ fn bench_as_json() {
 }
 
 #[test]
+fn methods_are_chosen_by_name_and_judged_like_all_others() {
+    let folder = folder();
+    let run = |line: &str| raypacket(folder.path(), line);
+    let text = run("bench good.toml --size 32x16 --threads 1 --method sphere=double --json -").good().stdout;
+    let methods = "sphere=double triangle=watertight torus=monotone_newton normalize=division offset=derived";
+    assert_eq!(parse(&text)["methods"], methods);
+    // The last of a kind counts; and info says that it was asked for.
+    let text = run("info good.toml --method sphere=geometric --method sphere=quadratic").good().stdout;
+    assert!(text.contains("method `quadratic`: as asked for"), "{text}");
+    // Found out: the lecture's test sees no sphere from inside, and no offset is no good anywhere.
+    for line in
+        ["verify glass --size 64x32 --method sphere=geometric", "verify classic --size 64x32 --method offset=none"]
+    {
+        let verdict = run(line);
+        assert_eq!(verdict.status, Some(1), "{line}: {}", verdict.stdout);
+        assert!(verdict.stdout.contains("FAIL"), "{line}: {}", verdict.stdout);
+    }
+    run("verify cosmos classic --size 64x32 --method sphere=double --method normalize=newton_2").good();
+    let words = ["no method `cubic`; there are stable, quadratic, geometric, double"];
+    run("render good.toml -o x.png --method sphere=cubic").failed(2, &words);
+    assert!(!folder.path().join("x.png").exists());
+}
+
+#[test]
 fn bench_of_several_scenes_into_a_file() {
     let folder = folder();
     let args = "bench good.toml classic --size 32x16 --threads 2 --json a.json";
