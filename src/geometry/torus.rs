@@ -1,7 +1,13 @@
 //! The torus (ρ − R)² + z² = r², with ρ the distance from its axis and z the height along it; seen from outside and
 //! inside.
 //!
-//! One method, [`monotone_newton`], in units of R with κ = r / R:
+//! Three methods with one signature, all for unit directions, in units of R with κ = r / R:
+//!
+//! - [`monotone_newton`], the default: below.
+//! - [`ferrari`]: the roots of the quartic in closed form, after Schwarze (Graphics Gems, 1990). The textbook's.
+//! - [`sphere_trace`]: steps as long as the distance to the torus (Hart 1996).
+//!
+//! # The default
 //!
 //! - Multiplied out, a ray's places on the torus are the roots of the quartic (|p|² + 1 − κ²)² − 4 ρ². Its coefficients
 //!   cancel, the more so the thinner or the farther the torus, and closed forms (Ferrari's) and Newton's method on it
@@ -29,6 +35,12 @@
 //!
 //! **Inside, and on the surface.** From inside the far side is hit. An origin within 8 ε (R + r) of the surface counts
 //! as on it: a ray that leaves it hits nothing there, one that enters the far side.
+
+mod ferrari;
+mod sphere_trace;
+
+pub use ferrari::ferrari;
+pub use sphere_trace::sphere_trace;
 
 use super::methods::TorusMethod;
 use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame, frame::along};
