@@ -132,6 +132,51 @@ mod tests {
         assert!((t - d).length() < 1e-6);
     }
 
+    /// The cosine behind the surface from sin θ' = η sin θ as it stands; `None` where all is reflected.
+    fn by_sines(cosine: f32, eta: f32) -> Option<f32> {
+        let sine2 = eta * eta * (1.0 - cosine * cosine);
+        (sine2 <= 1.0).then(|| (1.0 - sine2).sqrt())
+    }
+
+    /// Between nearly equal indices the critical angle is next to grazing, where 1 − η² (1 − c²) cancels.
+    #[test]
+    fn at_the_critical_angle_of_a_small_step_the_sines_fail_and_ours_holds() {
+        let (mut wrong, mut count) = (0, 0);
+        for step in [0.0f32, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4] {
+            let eta = 1.0 + step;
+            let (e, critical) = (f64::from(eta), (2.0 * step.max(0.0)).sqrt());
+            for i in 1..=200 {
+                let cosine = critical + 1e-5 * 1.03f32.powi(i);
+                let c = f64::from(cosine);
+                let exact = ((e * c).powi(2) + (1.0 - e) * (1.0 + e)).max(0.0).sqrt();
+                let off = |through: f32| (f64::from(through) - exact).abs() / exact;
+                let f = fresnel(cosine, eta);
+                // What rounding can do to a difference of c² and the step.
+                let bound = 4.0 * 2f64.powi(-24) * (c * c / (exact * exact)).max(1.0);
+                assert!(!f.total && off(f.cosine) <= bound, "{eta} {cosine}: {f:?} for {exact}");
+                wrong += usize::from(by_sines(cosine, eta).is_none_or(|through| off(through) > 0.01));
+                count += 1;
+            }
+        }
+        assert!(wrong > count / 4, "{wrong} of {count}");
+    }
+
+    /// A product with the reciprocal is not always 1 between equal indices, and then a grazing ray is bent that should
+    /// go straight on.
+    #[test]
+    fn between_equal_indices_a_rounded_ratio_fails_and_ours_holds() {
+        // 2⁻¹¹, whose square rounding leaves alone.
+        let (mut wrong, cosine) = (0, 1.0f32 / 2048.0);
+        for i in 0..1000 {
+            let ior = 1.0 + i as f32 * 1e-3;
+            let off = |through: f32| (through / cosine - 1.0).abs();
+            wrong += usize::from(by_sines(cosine, ior * (1.0 / ior)).is_none_or(|through| off(through) > 0.1));
+            let f = fresnel(cosine, ior / ior);
+            assert!(!f.total && off(f.cosine) < 1e-6, "{ior}: {f:?}");
+        }
+        assert!(wrong > 100, "{wrong}");
+    }
+
     #[test]
     fn directions_obey_snells_law() {
         for eta in [0.2f32, 0.66, 1.1, 1.5] {
