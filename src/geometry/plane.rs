@@ -2,7 +2,8 @@
 //!
 //! One method: t = −(n·o + distance) / (n·d), with the normal as the user gave it but for a power of two, so that
 //! nothing is lost in normalising it (Haines, *Essential Ray Tracing Algorithms*, in Glassner 1989, §2.1).
-//! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n|.
+//! The hit point's distance from the plane is at most 4 ε (|n·o| + |distance|) / |n| + 3 ε t, the latter for the rounding
+//! of n·d.
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
 use super::{Nearest, Primitives, Surface, columns, frame};

@@ -4,6 +4,7 @@
 mod common;
 mod depth;
 mod eyes;
+mod formulae;
 mod glass;
 mod leak;
 mod lights;
