@@ -1,21 +1,23 @@
 //! The textbook's way to a torus: the quartic multiplied out, and its roots in closed form.
-//!
-//! Jochen Schwarze, *Cubic and Quartic Roots* (Graphics Gems, 1990, pp. 404–407): t = y − a₃ / 4 makes the quartic
-//! y⁴ + p y² + q y + r; with a root z of the resolvent z³ − ½ p z² − r z + ½ p r − ⅛ q², by Cardano's formula or, where
-//! there are three, by Viète's cosine, it is the product of the quadratics y² ± v y + z ∓ u with u² = z² − r and
-//! v² = 2 z − p. Deviations: in `f32`; always the greatest z; squares that rounding brings below zero count as zero; no
-//! epsilon decides what else is zero.
-//!
-//! **Error.** The coefficients grow with the fourth power of the distance, and their rounding with them. Next to a torus
-//! with r = R / 4 hits are off it by 100 ε (R + r) in the median and by some 10⁴ at worst; from 30 R, or with r below
-//! R / 100, most answers are wrong. At double roots, and where a ray starts on the surface, rounding makes hits and loses
-//! them.
 
 use super::{Nearest, SeenTorus, along};
 use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3};
 
-/// See the module's text. A root counts inside (`t_min`, `t_max`) as it was rounded, also one that should be where the
-/// ray starts. Directions are of unit length; NaN hits nothing.
+/// The roots of the quartic in closed form.
+///
+/// Jochen Schwarze, *Cubic and Quartic Roots* (Graphics Gems, 1990, pp. 404–407): t = y − a₃ / 4 makes the quartic
+/// y⁴ + p y² + q y + r; with a root z of the resolvent z³ − ½ p z² − r z + ½ p r − ⅛ q², by Cardano's formula or, where
+/// there are three, by Viète's cosine, it is the product of the quadratics y² ± v y + z ∓ u with u² = z² − r and
+/// v² = 2 z − p. Deviations: in `f32`; always the greatest z; squares that rounding brings below zero count as zero; no
+/// epsilon decides what else is zero.
+///
+/// **Error.** The coefficients grow with the fourth power of the distance, and their rounding with them. Next to a torus
+/// with r = R / 4 hits are off it by 100 ε (R + r) in the median and by some 10⁴ at worst; from 30 R, or with r below
+/// R / 100, most answers are wrong. At double roots, and where a ray starts on the surface, rounding makes hits and loses
+/// them.
+///
+/// A root counts inside (`t_min`, `t_max`) as it was rounded, also one that should be where the ray starts. Directions are
+/// of unit length; NaN hits nothing.
 ///
 /// All in lanes but for the root of the resolvent, which takes the lanes one after another, as cube roots and cosines do.
 #[inline(never)]

@@ -1,14 +1,4 @@
 //! Sphere tracing of a torus: from a point no surface is nearer than the distance to it, so that is how far to step.
-//!
-//! Hart, *Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces* (The Visual Computer
-//! 12, 1996, §2.3; the torus's distance √((ρ − R)² + z²) − r in appendix A). Deviations: from inside it steps by the
-//! distance below zero; the march is kept to the ball and the planes that the default searches in; it ends after
-//! [`MOST_STEPS`] and then hits nothing; the side it is on is the one where it first is farther than [`NEAR`], so that
-//! it leaves a surface that it starts on.
-//!
-//! **Error.** A hit is off the torus by less than 10 ε (R + r) + 4 ε |o − center|. But at an incidence θ every step leaves
-//! 1 − cos θ of the distance, so that some 15 / cos θ are needed: rays that graze the torus run out of steps and are lost,
-//! and those that touch it cost the most.
 
 use super::{Nearest, ROUNDOFF, SeenTorus, Span, along};
 use crate::math::{LaneMask, Lanes, Vec3};
@@ -19,8 +9,19 @@ const MOST_STEPS: usize = 256;
 /// At what distance from the surface the march ends, in R + r: what rounds along the way is half of that.
 const NEAR: f32 = 4.0 * ROUNDOFF;
 
-/// See the module's text. t is short by up to [`NEAR`] (R + r) / cos θ beside the rounding; directions are of unit
-/// length; NaN hits nothing.
+/// Steps as long as the distance to the torus, until that is at most 4 ε (R + r).
+///
+/// Hart, *Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces* (The Visual Computer
+/// 12, 1996, pp. 527–545), with the distance √((ρ − R)² + z²) − r. Deviations: from inside it steps by the negative
+/// distance; the march is kept to the ball and the planes that the default searches in; it ends after 256 steps and then
+/// hits nothing; the side it is on is the one where it first is farther off than 4 ε (R + r), so that it leaves a surface
+/// that it starts on.
+///
+/// **Error.** A hit is off the torus by less than 10 ε (R + r) + 4 ε |o − center|. But at an incidence θ every step leaves
+/// 1 − cos θ of the distance, so that some 15 / cos θ are needed: rays that graze the torus run out of steps and are lost,
+/// and those that touch it cost the most.
+///
+/// t is short by up to 4 ε (R + r) / cos θ beside the rounding; directions are of unit length; NaN hits nothing.
 #[inline(never)]
 pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
     let per_major = L::splat(1.0 / seen.major);
