@@ -71,6 +71,10 @@ methods! {
     TorusMethod {
         /// Newton's on stretches without an inflection.
         MonotoneNewton = "monotone_newton",
+        /// Ferrari's closed form of the quartic's roots.
+        Ferrari = "ferrari",
+        /// Steps as long as the distance to the surface.
+        SphereTrace = "sphere_trace",
     }
 }
 

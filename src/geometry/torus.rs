@@ -92,6 +92,8 @@ pub struct TorusRecord {
     pub kappa: f32,
     /// How near to a root the search takes g for a parabola, far from the axis.
     pub near: f32,
+    /// How it is tested.
+    pub method: TorusMethod,
 }
 
 /// What a torus's test needs of it and of the rays' origin.
@@ -107,6 +109,8 @@ pub struct SeenTorus<L> {
     pub kappa: f32,
     /// How near to a root the search takes g for a parabola, far from the axis.
     pub near: f32,
+    /// How it is tested.
+    pub method: TorusMethod,
 }
 
 impl Tori {
@@ -184,20 +188,26 @@ impl Primitives for Tori {
             major,
             kappa: minor / major,
             near: self.near[i],
+            method: self.method,
         }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &TorusRecord, origin: Vec3<L>) -> SeenTorus<L> {
         let f = along(&r.axes, origin - Vec3::splat(r.center.into())) * L::splat(1.0 / r.major);
-        SeenTorus { f, axes: r.axes, major: r.major, kappa: r.kappa, near: r.near }
+        SeenTorus { f, axes: r.axes, major: r.major, kappa: r.kappa, near: r.near, method: r.method }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTorus<f32>) -> SeenTorus<L> {
-        SeenTorus { f: Vec3::splat(s.f.into()), axes: s.axes, major: s.major, kappa: s.kappa, near: s.near }
+        let SeenTorus { f, axes, major, kappa, near, method } = *s;
+        SeenTorus { f: Vec3::splat(f.into()), axes, major, kappa, near, method }
     }
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTorus<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        monotone_newton(seen, *d, t_min, t_max)
+        match seen.method {
+            TorusMethod::MonotoneNewton => monotone_newton(seen, *d, t_min, t_max),
+            TorusMethod::Ferrari => ferrari(seen, *d, t_min, t_max),
+            TorusMethod::SphereTrace => sphere_trace(seen, *d, t_min, t_max),
+        }
     }
 
     #[inline(always)]

@@ -214,6 +214,7 @@ impl fmt::Display for Plan {
             TorusMethod::MonotoneNewton => {
                 "method `monotone_newton`, which loses no root, single or double, near or far".to_owned()
             }
+            other => format!("method `{}`, as asked for", other.name()),
         };
         let methods = [
             ("planes", "unbounded; left out where no ray of a batch turns to it"),
