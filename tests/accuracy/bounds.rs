@@ -135,7 +135,7 @@ pub fn error_of_t(shape: &Shape, ray: &Ray, truth: &Truth) -> f64 {
     let off = match shape {
         Shape::Plane(it) => {
             let n = it.normal.as_dvec3();
-            4.0 * (n.dot(o).abs() + f64::from(it.distance).abs()) / n.length()
+            4.0 * (n.dot(o).abs() + f64::from(it.distance).abs()) / n.length() + 3.0 * t
         }
         Shape::Sphere(it) => {
             let f = from(it.center);

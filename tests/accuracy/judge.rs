@@ -82,7 +82,8 @@ impl<'a> Judge<'a> {
         if agrees {
             return Verdict { hit, ..Verdict::default() };
         }
-        let wrong = !self.explained(1.0);
+        // Neighbourhoods nest, their samples do not.
+        let wrong = ![1.0, 0.25, 0.0625].into_iter().any(|part| self.explained(part));
         let parts = (-4..=14).map(|e| 2f64.powi(e));
         let needs = if look_closer { parts.into_iter().find(|&part| self.explained(part)) } else { None };
         let needs = needs.unwrap_or(if look_closer { f64::INFINITY } else { 0.0 });
@@ -95,9 +96,11 @@ impl<'a> Judge<'a> {
         let scale = bounds::scale(shape, self.ray, [Some(truth.t), None]);
         let far = scale - self.ray.origin.as_dvec3().abs().max_element();
         let distance = far / bounds::size(shape);
-        let along = truth.t.min(t.into()) * bounds::cosine(self.ray, truth) * bounds::angle(shape);
-        let condition = scale / along;
         let found = glam::Vec3::from(surface(self.scene, shape, id, at(self.ray, t)).normal).as_dvec3();
+        // Of two crossings, one of which is a matter of rounding, the answer may be the other.
+        let cosine = bounds::cosine(self.ray, truth).min(self.ray.line().1.dot(found).abs());
+        let along = truth.t.min(t.into()) * cosine * bounds::angle(shape);
+        let condition = scale / along;
         let degrees = |n: glam::DVec3| found.cross(n).length().atan2(found.dot(n)).to_degrees();
         let mut off = degrees(truth.normal);
         // Next to an edge the answer's face and the true one may differ: that is a decision.
@@ -191,6 +194,16 @@ impl<'a> Judge<'a> {
     fn on_surface(&self, t: f64, id: usize, slack: f64) -> bool {
         let (o, d) = (self.ray.origin.as_dvec3(), self.ray.direction.as_dvec3());
         let place = (o + d * t).as_vec3();
+        // A tip is too thin for the probes below.
+        if let Shape::Cone(it) = &self.shapes[id] {
+            let ends = [(it.base, it.base_radius), (it.apex, it.apex_radius)];
+            let meets = |(end, radius): (glam::Vec3, f32)| {
+                f64::from(radius) < slack && place.as_dvec3().distance(end.as_dvec3()) <= slack
+            };
+            if ends.into_iter().any(meets) {
+                return true;
+            }
+        }
         // Of these directions one is within 28° of the normal; the place is rounded.
         let reach = slack / 28f64.to_radians().cos() + ROUNDOFF * 3f64.sqrt() * place.as_dvec3().abs().max_element();
         let digit = |i: i32| (i % 3 - 1) as f32;

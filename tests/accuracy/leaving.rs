@@ -164,6 +164,10 @@ fn count(kind: &str, size: f64, seed: u64) -> Count {
         if wrong && count.met + count.leaked == 1 {
             let Spawned { ray, point, normal, .. } = spawned;
             println!("{kind} of {size:e}, seed {seed}: {ray:?} from {point} with normal {normal}: {t:?} of {shape:?}");
+            println!(
+                "  in truth {:?}",
+                nearest(shape, &oracle::Ray::new(ray.origin, ray.direction), 0.0, f64::INFINITY)
+            );
         }
     }
     count

@@ -11,11 +11,11 @@ use crate::{compiled, trace};
 const SETTINGS: usize = 9;
 
 /// The condition under which t is within 8 ulps: the thing is not smaller than a ten thousandth of how far away it is, and
-/// (D + |o|) / (t cos θ) is at most 10 (for triangles and quads also over
+/// (D + |o|) / (t cos θ) is at most 4 (for triangles and quads also over
 /// the sine of the smallest angle): the ray does not graze, nor start much nearer than the thing is large or the
 /// world's origin is far.
 const DISTANCE: f64 = 1e4;
-const CONDITION: f64 = 10.0;
+const CONDITION: f64 = 4.0;
 
 /// What is measured of a subject.
 #[derive(Clone, Debug, Default)]
