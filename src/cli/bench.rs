@@ -2,6 +2,7 @@
 
 use super::args::{DEFAULT_SCENE, Json, Methods, Size, Threads};
 use super::{Failure, input, print};
+use raypacket::geometry::methods::{Choice, SphereMethod};
 use raypacket::measure::bench;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -37,7 +38,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let options = bench::Options { size: [args.size.width, args.size.height], rays: args.rays.clone() };
     let mut reports = Vec::new();
     for (name, description) in args.scenes.iter().zip(&scenes) {
-        let scene = input::compile(name, description, &args.methods.choices)?;
+        let mut choices = args.methods.choices.clone();
+        if args.rays.is_some() {
+            // What the plan vouches for starts in the scene; these rays may come from anywhere.
+            choices.insert(0, Choice::Sphere(SphereMethod::Stable));
+        }
+        let scene = input::compile(name, description, &choices)?;
         // The message names the ray file.
         let report = bench::run(description, &scene, &options).map_err(Failure::input)?;
         if !matches!(json, Some(Json::Stdout)) {

@@ -121,9 +121,10 @@ impl Primitives for Spheres {
     #[inline(always)]
     fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenSphere<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
         match seen.method {
-            SphereMethod::Stable if SIDED => one_sided(seen, *d, t_min, t_max),
-            SphereMethod::Stable => stable(seen, *d, t_min, t_max),
             SphereMethod::Quadratic => quadratic(seen, *d, t_min, t_max),
+            // The others are rare, and the call of `double` alone would cost all registers.
+            _ if !SIDED => stable(seen, *d, t_min, t_max),
+            SphereMethod::Stable => one_sided(seen, *d, t_min, t_max),
             SphereMethod::Geometric => geometric(seen, *d, t_min, t_max),
             SphereMethod::Double => double(seen, *d, t_min, t_max),
         }

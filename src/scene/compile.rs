@@ -126,7 +126,8 @@ macro_rules! with_primitive {
 }
 pub(crate) use with_primitive;
 
-/// Compiles a description into SoA arrays.
+/// Compiles a description into SoA arrays, for rays that start at the eye, at lights and on surfaces: where the plan has a
+/// cheaper method for spheres, it vouches for no others. [`compile_with`] can ask for the stable one.
 ///
 /// # Errors
 /// [`Invalid`] when [`check`] finds fault with it.

@@ -107,7 +107,11 @@ impl Plan {
         let rare = one_sided
             || primitives[3..].iter().any(|n| *n > 0)
             || methods.triangle != TriangleMethod::default()
-            || (methods.sphere != SphereMethod::default() && structure == Structure::Tree);
+            || match methods.sphere {
+                SphereMethod::Stable => false,
+                SphereMethod::Quadratic => structure == Structure::Tree,
+                SphereMethod::Geometric | SphereMethod::Double => true,
+            };
         Self {
             primitives,
             structure,
