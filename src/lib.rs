@@ -43,7 +43,7 @@
 //! apart: it may import the [`scene::Description`] and what that holds, and nothing else.
 //!
 //! - [`viewer`]: the window: 3D view, 2D slice, controls, overlay
-//! - [`measure`]: rays a second, and how right they are; the hard cases
+//! - [`measure`]: rays a second, and how right they are; the hard cases, the laboratory and its charts
 //! - [`render`]: camera, tiles, film, tone mapping, picture files
 //! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
 //! - [`trace`]: the two queries, over a compiled scene

@@ -6,6 +6,7 @@
 
 mod args;
 mod bench;
+mod chart;
 mod info;
 mod input;
 mod print;
@@ -40,6 +41,8 @@ enum Command {
     Bench(bench::Args),
     /// Check every kernel against the scalar reference
     Verify(verify::Args),
+    /// Measure how fast and how right every method is, as SVG charts with their data
+    Chart(chart::Args),
     /// Tell what a scene holds and how it will be traced
     Info(info::Args),
     /// List the built-in scenes
@@ -72,6 +75,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Chart(args) => chart::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Scenes => scenes::run(),
     };

@@ -1,8 +1,10 @@
-//! Measuring: how fast, and how right, in the same run; [`cases`], what is hard to get right, and [`oracle`], the exact truth
-//! that methods are judged by.
+//! Measuring: how fast, and how right, in the same run; [`cases`], what is hard to get right, [`oracle`], the exact truth
+//! that methods are judged by, [`lab`], which judges them, and [`chart`], which draws it.
 
 pub mod bench;
 pub mod cases;
+pub mod chart;
+pub mod lab;
 pub mod oracle;
 pub mod random;
 pub mod rays;

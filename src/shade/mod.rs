@@ -18,6 +18,7 @@ mod wave;
 mod whitted;
 
 pub use path::{Segment, SegmentKind, path};
+pub(crate) use spawn::Offsets;
 pub(crate) use surface::facing_normal;
 pub use wave::Observer;
 pub use whitted::{Counts, Workspace, trace_waves};

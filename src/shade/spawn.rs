@@ -55,6 +55,11 @@ impl Offsets {
         }
     }
 
+    /// So many world units.
+    pub fn fixed(epsilon: f32) -> Self {
+        Self { reach: 0.0, coordinate: 0.0, length: 0.0, fixed: epsilon, steps: None }
+    }
+
     /// How far from the surface a ray starts that leaves it at `point`.
     #[inline(always)]
     pub fn lift<L: Lanes>(&self, point: Vec3<L>, reach: L) -> L {

@@ -167,3 +167,17 @@ fn a_full_disk_is_said_so() {
     assert_eq!((run.status.code(), stderr.lines().count()), (Some(1), 1), "{stderr}");
     assert!(stderr.starts_with("raypacket: standard output: "), "{stderr}");
 }
+
+/// A folder that cannot be written to is found before anything is measured.
+#[test]
+fn charts_into_no_folder() {
+    let folder = folder();
+    for args in ["chart -o no/charts", "chart --quick --output no/charts --threads 2"] {
+        raypacket(folder.path(), args).failed(2, &["no/charts"]);
+    }
+    raypacket(folder.path(), "chart -o good.toml --quick").failed(2, &["good.toml", "file"]);
+    fs::create_dir_all(folder.path().join("charts/epsilon.csv")).unwrap();
+    raypacket(folder.path(), "chart --quick").failed(2, &["epsilon.csv", "is a folder"]);
+    assert_eq!(names(&folder.path().join("charts")), ["epsilon.csv"]);
+    assert_eq!(names(folder.path()), ["charts", "good.toml"]);
+}

@@ -169,7 +169,7 @@ fn help_and_version() {
     let folder = folder();
     assert!(raypacket(folder.path(), "--version").good().stdout.starts_with("raypacket "));
     let help = raypacket(folder.path(), "--help").good().stdout;
-    for command in ["view", "render", "bench", "verify", "info", "scenes"] {
+    for command in ["view", "render", "bench", "verify", "chart", "info", "scenes"] {
         assert!(help.lines().any(|line| line.trim_start().starts_with(command)), "no {command} in {help}");
         raypacket(folder.path(), &format!("{command} --help")).good();
     }

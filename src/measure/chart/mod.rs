@@ -1,0 +1,74 @@
+//! Charts of what [`super::lab`] measures: an SVG for a person, and the data beside it as CSV.
+//!
+//! | chart | what it shows |
+//! |---|---|
+//! | `speed-error` | ns a ray against the error of t and wrong decisions, for every method and width |
+//! | `failure-…` | wrong decisions and errors of t along every hard case's dial |
+//! | `epsilon` | acne and leaks by offset, over the scene's scale |
+//! | `frames` | ms a frame against the picture's error |
+//! | `heat-…` | errors over the screen, where textbook methods fail |
+
+mod axis;
+mod canvas;
+mod epsilon;
+mod failure;
+mod frames;
+mod heat;
+mod speed_error;
+mod style;
+mod table;
+
+pub use table::Table;
+
+use crate::measure::lab::{Budget, HEATS, Machine};
+
+/// A chart and its data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Of both files, without an extension.
+    pub name: String,
+    /// The drawing.
+    pub svg: String,
+    /// The data.
+    pub table: Table,
+    /// Whether answers that have to agree did, in the run that was measured.
+    pub sound: bool,
+}
+
+/// What charts are made with.
+struct Context<'a> {
+    budget: &'a Budget,
+    machine: &'a Machine,
+    progress: &'a (dyn Fn(f32) + Sync),
+}
+
+/// The names of all charts, in the order in which they are best made: timings first, while the machine is cool.
+pub fn names() -> Vec<String> {
+    let first =
+        ["speed-error", "frames", "failure-sphere", "failure-triangle", "failure-torus", "failure-others", "epsilon"];
+    first.iter().map(|&name| name.to_owned()).chain(HEATS.iter().map(|h| format!("heat-{}", h.name))).collect()
+}
+
+/// Measures and draws one of [`names`], in the caller's rayon pool; `progress` is called with the share done, 0 to 1.
+///
+/// # Errors
+/// One line when there is no such chart, or a scene cannot be compiled.
+pub fn draw(name: &str, budget: &Budget, machine: &Machine, progress: &(dyn Fn(f32) + Sync)) -> Result<Chart, String> {
+    let context = Context { budget, machine, progress };
+    match name {
+        "speed-error" => speed_error::draw(name, &context),
+        "frames" => frames::draw(name, &context),
+        "epsilon" => epsilon::draw(name, &context),
+        _ if !names().iter().any(|n| n == name) => Err(format!("no chart `{name}`; there are {}", names().join(", "))),
+        _ if name.starts_with("heat-") => heat::draw(name, &context),
+        _ => failure::draw(name, &context),
+    }
+}
+
+/// A number, or nothing.
+fn optional(n: Option<usize>) -> String {
+    n.map(|n| n.to_string()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests;
