@@ -93,13 +93,15 @@ fn svg(scenes: &[FramesOf], context: &Context) -> String {
         let mut entries: Vec<_> =
             Kernel::ALL.iter().map(|&k| (Key::Point(marker(k), GREY), k.name().to_owned())).collect();
         entries.push((Key::Dashed(INK, 1.5), "Pareto frontier".into()));
-        legend(canvas, [MARGIN, 92.0], &entries);
+        legend(canvas, [MARGIN, 88.0], &entries);
         let entries: Vec<_> = names.iter().enumerate().map(|(i, n)| (Key::Patch(color(i)), (*n).to_owned())).collect();
-        legend(canvas, [MARGIN, 118.0], &entries);
+        for (row, entries) in entries.chunks(6).enumerate() {
+            legend(canvas, [MARGIN, 112.0 + 22.0 * row as f64], entries);
+        }
         let column = (WIDTH - 2.0 * MARGIN) / scenes.len().max(1) as f64;
         for (i, scene) in scenes.iter().enumerate() {
             let left = MARGIN + column * i as f64 + 66.0;
-            canvas.text([left, 156.0], Anchor::Left, HEADING, scene.scene);
+            canvas.text([left, 160.0], Anchor::Left, HEADING, scene.scene);
             let x = Axis::tight(scene.frames.iter().flat_map(|f| [f.time.low, f.time.high]));
             for (row, (name, error)) in ROWS.into_iter().enumerate() {
                 let y = Axis::tight(scene.frames.iter().map(error));

@@ -126,11 +126,10 @@ fn cells(canvas: &mut Canvas, [left, top]: [f64; 2], heat: &Heat, map: &HeatMap)
 fn summary(map: &HeatMap) -> String {
     match &map.errors {
         Some(e) => format!(
-            "t: median {} ulps, 99.9 % within {}; wrong {} of {}",
+            "median {} ulps, 99.9 % within {}; wrong: {}",
             style::short(e.t.median),
             style::short(e.t.p999),
-            style::thousands(e.wrong),
-            style::thousands(e.rays)
+            style::thousands(e.wrong)
         ),
         None => {
             let errors = map.cells.iter().filter_map(|c| if let Cell::Error(e) = c { Some(*e) } else { None });
