@@ -135,7 +135,8 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     compile_as(description, None)
 }
 
-/// The same, with a structure of the caller's choice instead of the plan's.
+/// The same, with a structure of the caller's choice instead of the plan's; then spheres are tested by the stable method, so
+/// that every structure gives the same bits.
 ///
 /// # Errors
 /// [`Invalid`] when [`check`] finds fault with it.

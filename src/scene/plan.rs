@@ -4,7 +4,8 @@ use std::fmt;
 
 use glam::Vec3;
 
-use super::{Description, Sides, choose};
+use super::choose::{self, Chosen};
+use super::{Description, Sides};
 use crate::bvh::Aabb;
 use crate::geometry::methods::{
     Choice, Methods, NormalizeMethod, OffsetMethod, SphereMethod, TorusMethod, TriangleMethod,
@@ -99,8 +100,13 @@ impl Plan {
         let mirrors = count(&|m| m.reflectance > 0.0);
         let glasses = count(&|m| m.transmission > 0.0);
         let weight = primitives[1] + 4 * primitives[2..].iter().sum::<usize>();
+        // Whoever compares structures wants the same bits of both.
+        let asked = structure.is_some();
         let structure = structure.unwrap_or(if weight < TREE_FROM { Structure::None } else { Structure::Tree });
-        let chosen = choose::sphere(description, boxes, structure);
+        let chosen = match asked {
+            true => Chosen { method: SphereMethod::Stable, reason: "with a structure that was asked for".to_owned() },
+            false => choose::sphere(description, boxes, structure),
+        };
         let planned = Methods { sphere: chosen.method, ..Methods::default() };
         let methods = choices.iter().fold(planned, |methods, &choice| methods.with(choice));
         // What tests triangles, and spheres in trees, otherwise than by default is with the rare things.
