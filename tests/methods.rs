@@ -142,7 +142,10 @@ fn difference(a: &Film, b: &Film) -> f64 {
 #[test]
 fn what_the_plan_chooses_for_speed_is_not_seen() {
     // Near enough for the cheap method, by its bound.
-    let description = Description { lights: vec![light(vec3(1.0, 2.0, -1.0))], ..alone(vec3(0.0, 0.0, -5.0), 1.5) };
+    let mut description = Description { lights: vec![light(vec3(1.0, 2.0, -1.0))], ..alone(vec3(0.0, 0.0, -5.0), 1.5) };
+    let plan = compile_with(&description, None, &[]).expect("a sound scene").plan;
+    assert_eq!(plan.methods.sphere, SphereMethod::Stable, "by default nothing may change: {plan}");
+    description.settings.tolerance = 1.0 / 255.0;
     let plan = compile_with(&description, None, &[]).expect("a sound scene").plan;
     assert_eq!(plan.methods.sphere, SphereMethod::Quadratic, "{plan}");
     let stable = Choice::Sphere(SphereMethod::Stable);
