@@ -47,9 +47,9 @@
 //! - [`render`]: camera, tiles, film, tone mapping, picture files
 //! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
 //! - [`trace`]: the two queries, over a compiled scene
-//! - [`bvh`]: the acceleration structure: build and layout
 //! - [`scene`]: what the user wrote, its readers and rules, the built-in scenes, `compile`, the plan
-//! - [`geometry`]: a file a primitive: storage, tests, surface
+//! - [`bvh`]: the acceleration structure: build and layout
+//! - [`geometry`]: a file a primitive: storage, tests by named [`geometry::methods`], surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
 //! - [`reference`](mod@reference): the scalar tracer that the others are checked against
 //! - [`files`]: writing files whole or not at all
@@ -65,13 +65,13 @@
 //!   [`scene::Scene`]'s fields: planes, spheres, triangles, quads and so on.
 //! - **The tree loses no hit.** Where the plan has one ([`bvh`]), answers for rays of finite numbers are those of
 //!   testing everything, to the bit: its boxes are wider than what rounding can do, and all hits but spheres', whose
-//!   test errs like a slightly larger sphere, count only within a box of the primitive's own. Boxes are always tested
-//!   eight at a time, at every width.
+//!   test errs like a slightly larger sphere, count only within a box of the primitive's own. On every width a beam or a
+//!   ray is tested against eight boxes at a time, or a box against sixteen rays.
 //! - **[`math::Lanes::mul_add`] is fused on every width or on none**: fused in a build with FMA instructions, two
 //!   roundings in a build without. So two builds may differ, each within the bounds that
 //!   [`measure::verify`] checks.
 //! - **One place says where secondary rays start and end**: `shade/spawn.rs`, by a bound on the rounding, not by an
-//!   epsilon that somebody chose. Shadow rays start at the light, or at the point when the light is too far from
+//!   epsilon that somebody chose; fixed ones are there to be compared with. Shadow rays start at the light, or at the point when the light is too far from
 //!   something small ([`scene::ShadowStart`]).
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -15,7 +15,7 @@
 //!   triangles that share an edge.
 //!
 //! - [`edge_planes`]: the side of a direction to the three planes through the origin and an edge, d·(b × c) and so on,
-//!   which rays of one origin share (Davidovič, Engelhardt, Georgiev, Slusallek, Dachsbacher, *3D Rasterization*, 2012, §2).
+//!   which rays of one origin share, though here each packet computes them (Davidovič, Engelhardt, Georgiev, Slusallek, Dachsbacher, *3D Rasterization*, 2012, §2).
 //!   Alike on both sides of an edge, as every product rounds alike. But b × c cancels: the plane is off by ε |b|² over the
 //!   edge's length, so that from 10,000 sizes away it hits what it likes.
 //!

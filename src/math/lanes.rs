@@ -23,7 +23,8 @@ pub trait LaneMask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> 
     fn from_bits(bits: u32) -> Self;
 }
 
-/// `WIDTH` numbers that are worked on at once: `f32` (x1), [`f32x4`] (x4), [`f32x8`] (x8).
+/// `WIDTH` numbers that are worked on at once: `f32` (x1), [`f32x4`] (x4), [`f32x8`] (x8), and [`f32x16`] (x16) in packets of
+/// the tree, which is no kernel of its own.
 ///
 /// Every operation is one IEEE 754 operation per lane, so that within one build all widths give the same bits.
 /// [`Lanes::mul_add`] is fused in a build with FMA and rounds twice in a build without, on every width.
@@ -41,7 +42,7 @@ pub trait Lanes:
 {
     /// The number of lanes.
     const WIDTH: usize;
-    /// `x1`, `x4`, `x8`.
+    /// `x1`, `x4`, `x8`, `x16`.
     const NAME: &'static str;
     /// What comparisons give.
     type Mask: LaneMask;

@@ -36,7 +36,7 @@ pub(super) fn sphere(description: &Description, boxes: &[Aabb], structure: Struc
     let stable = |reason: &str| Chosen { method: SphereMethod::Stable, reason: reason.to_owned() };
     match () {
         _ if description.spheres.is_empty() => return stable("there is none"),
-        _ if structure == Structure::Tree => return stable("the tree's blocks are tested eight at a time by it"),
+        _ if structure == Structure::Tree => return stable("the tree tests blocks of them by it"),
         _ if description.spheres.iter().any(|s| s.sides != Sides::Both) => return stable("it knows their sides apart"),
         _ if !description.planes.is_empty() => {
             return stable("a plane has no end, and from far enough out on it `quadratic` loses any sphere");

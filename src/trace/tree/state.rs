@@ -44,7 +44,7 @@ impl State {
     /// For a new batch; `triangles` says whether there are any.
     #[inline(always)]
     pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
-        // Beams look at eight rays at a time, whatever the width.
+        // Beams look at eight rays at a time and packets at sixteen, whatever the width.
         self.t[rays.len..rays.len.next_multiple_of(MOST_LANES)].fill(f32::NAN);
         for at in (0..rays.len).step_by(L::WIDTH) {
             let t_max = L::load(&rays.t_max[at..]);
