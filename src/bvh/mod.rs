@@ -13,6 +13,7 @@ mod aabb;
 mod bins;
 mod build;
 mod collapse;
+mod fetch;
 mod layout;
 mod refs;
 mod stats;

@@ -26,7 +26,7 @@
 
 use super::axial::{self, Crossing, slab};
 use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3, angle};
+use crate::math::{LaneMask, Lanes, Vec3, angle, three};
 
 /// The least height, in differences of the radii: far below ε, and its square a normal number.
 const FLATTEST: f64 = 1.0 / (1u64 << 40) as f64;
@@ -163,7 +163,7 @@ impl Cones {
     #[inline(always)]
     fn local<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Local<L> {
         let q = point - Vec3::splat(self.narrow(i));
-        let [x, y, h] = self.axes[i].map(|a| Vec3::splat(a).dot(q));
+        let [x, y, h] = three(self.axes[i], |a| Vec3::splat(a).dot(q));
         let rho = x.mul_add(x, y * y).sqrt();
         let [cos, sin] = self.shape[i].turn;
         let inner = L::splat(self.shape[i].radii[0] * self.shape[i].unit);
@@ -252,7 +252,7 @@ impl Primitives for Cones {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenCone<f32>) -> SeenCone<L> {
         SeenCone {
-            axes: s.axes.map(|a| Vec3::splat(a.into())),
+            axes: three(s.axes, |a| Vec3::splat(a.into())),
             p: s.p.map(L::splat),
             c: L::splat(s.c),
             ends: s.ends.map(L::splat),
@@ -269,7 +269,7 @@ impl Primitives for Cones {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let Local { x, y, h, rho, outside, beyond, cap, wide } = self.local(i, point);
-        let [t, b, axis] = self.axes[i].map(Vec3::splat);
+        let [t, b, axis] = three(self.axes[i], Vec3::splat);
         let [cos, sin] = self.shape[i].turn.map(L::splat);
         // At the tip any direction is as good.
         let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
@@ -340,7 +340,7 @@ impl<L: Lanes> Line<L> {
         let (mut t, mut last) = (t, size(self.p));
         // The first root may be off by some parts in a hundred, the second by as much of that.
         for _ in 0..2 {
-            let p = [0, 1, 2].map(|k| self.q[k].mul_add(t, self.p[k]));
+            let p = three([0, 1, 2], |k| self.q[k].mul_add(t, self.p[k]));
             let near = (size(p) * L::splat(16.0)).lt(last);
             if !near.any() {
                 break;
@@ -374,7 +374,7 @@ fn expanded<L: Lanes>([px, py, pz]: [L; 3], [qx, qy, qz]: [L; 3]) -> L {
 #[inline(always)]
 pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_min: L, t_max: L) -> Nearest<L> {
     let shape = &seen.shape;
-    let [x, y, along] = seen.axes.map(|a| a.dot(direction));
+    let [x, y, along] = three(seen.axes, |a| a.dot(direction));
     let (p, q) = (seen.p, [x, y, along * L::splat(shape.turn[1])]);
     let line = Line { p, q, a: product(q, q), b: product(p, q), c: seen.c };
     let discriminant = line.discriminant();

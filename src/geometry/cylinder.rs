@@ -21,7 +21,7 @@
 
 use super::axial::{self, Crossing, slab};
 use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3, angle};
+use crate::math::{LaneMask, Lanes, Vec3, angle, three};
 
 /// Squared sine of the angle to the axis below which a ray is parallel to it: 2⁻⁶⁰.
 const PARALLEL: f32 = 1.0 / (1u64 << 60) as f32;
@@ -115,7 +115,7 @@ impl Cylinders {
     #[inline(always)]
     fn local<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [L; 3] {
         let q = point - Vec3::splat(self.base(i));
-        self.axes[i].map(|a| Vec3::splat(a).dot(q))
+        three(self.axes[i], |a| Vec3::splat(a).dot(q))
     }
 
     /// Where a point with these coordinates is nearer to an end of cylinder `i` than to its side.
@@ -148,7 +148,7 @@ impl Primitives for Cylinders {
     fn record(&self, i: usize) -> CylinderRecord {
         CylinderRecord {
             base: self.base(i).into(),
-            axes: self.axes[i].map(Vec3::from),
+            axes: three(self.axes[i], Vec3::from),
             radius: self.radius[i],
             length: self.length[i],
             caps: self.caps[i],
@@ -158,8 +158,8 @@ impl Primitives for Cylinders {
     #[inline(always)]
     fn seen<L: Lanes>(r: &CylinderRecord, origin: Vec3<L>) -> SeenCylinder<L> {
         let f = origin - Vec3::splat(r.base.into());
-        let axes = r.axes.map(|a| Vec3::splat(a.into()));
-        let [x, y, h] = axes.map(|a| a.dot(f));
+        let axes = three(r.axes, |a| Vec3::splat(a.into()));
+        let [x, y, h] = three(axes, |a| a.dot(f));
         let r2 = L::splat(r.radius * r.radius);
         let c = x.mul_add(x, y * y) - r2;
         SeenCylinder { axes, p: [x, y], c, r2, ends: [-h, L::splat(r.length) - h], caps: r.caps, sides: r.sides }
@@ -167,7 +167,7 @@ impl Primitives for Cylinders {
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenCylinder<f32>) -> SeenCylinder<L> {
         SeenCylinder {
-            axes: s.axes.map(|a| Vec3::splat(a.into())),
+            axes: three(s.axes, |a| Vec3::splat(a.into())),
             p: s.p.map(L::splat),
             c: L::splat(s.c),
             r2: L::splat(s.r2),
@@ -184,7 +184,7 @@ impl Primitives for Cylinders {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let [x, y, h] = self.local(i, point);
-        let [t, b, axis] = self.axes[i].map(Vec3::splat);
+        let [t, b, axis] = three(self.axes[i], Vec3::splat);
         let rho = x.mul_add(x, y * y).sqrt();
         // On the axis itself, where rounding is as large as the radius, any direction is as good.
         let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
@@ -214,7 +214,7 @@ impl Primitives for Cylinders {
 #[inline(always)]
 pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, sides: Sides, t_min: L, t_max: L) -> Nearest<L> {
     let SeenCylinder { axes, p: [px, py], c, r2, ends: [low, high], caps, .. } = *seen;
-    let [x, y, along] = axes.map(|a| a.dot(direction));
+    let [x, y, along] = three(axes, |a| a.dot(direction));
     let a = x.mul_add(x, y * y);
     let per_length = L::splat(1.0) / a.sqrt();
     let (x, y) = (x * per_length, y * per_length);

@@ -5,7 +5,7 @@
 //! misses it.
 
 use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, flat};
-use crate::math::{LaneMask, Lanes, Vec3};
+use crate::math::{LaneMask, Lanes, Vec3, three};
 
 /// Quads, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,7 +77,7 @@ impl Quads {
     /// Corner and edges of quad `i`.
     #[inline(always)]
     pub fn corner_and_edges(&self, i: usize) -> [glam::Vec3; 3] {
-        [&self.corner, &self.u, &self.v].map(|c| columns::at(c, i))
+        three([&self.corner, &self.u, &self.v], |c| columns::at(c, i))
     }
 }
 
@@ -103,14 +103,14 @@ impl Primitives for Quads {
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &QuadRecord, origin: Vec3<L>) -> SeenQuad<L> {
-        let [corner, u, v] = [r.corner, r.u, r.v].map(|a| Vec3::splat(a.into()));
+        let [corner, u, v] = three([r.corner, r.u, r.v], |a| Vec3::splat(a.into()));
         let n = u.cross(v);
         let t = origin - corner;
         SeenQuad { n, u: t.cross(v), v: u.cross(t), height: -t.dot(n) }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenQuad<f32>) -> SeenQuad<L> {
-        let [n, u, v] = [s.n, s.u, s.v].map(|a| Vec3::splat(a.into()));
+        let [n, u, v] = three([s.n, s.u, s.v], |a| Vec3::splat(a.into()));
         SeenQuad { n, u, v, height: L::splat(s.height) }
     }
     #[inline(always)]

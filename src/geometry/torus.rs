@@ -45,7 +45,7 @@ pub use sphere_trace::sphere_trace;
 use super::methods::TorusMethod;
 use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
-use crate::math::{LaneMask, Lanes, Vec3, angle, powf};
+use crate::math::{LaneMask, Lanes, Vec3, angle, powf, three};
 use glam::DVec3;
 
 /// ε, the unit roundoff.
@@ -152,7 +152,7 @@ impl Tori {
     /// The point of the tube's middle nearest to `point`, from the centre, and the vector from there to `point`.
     #[inline(always)]
     fn spine<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [Vec3<L>; 2] {
-        let [t, _, a] = self.axes[i].map(Vec3::<L>::splat);
+        let [t, _, a] = three(self.axes[i], Vec3::<L>::splat);
         let q = point - Vec3::splat(self.center(i));
         let across = a.mul_add(-a.dot(q), q);
         let rho2 = across.dot(across);

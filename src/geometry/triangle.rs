@@ -8,7 +8,7 @@
 //!   share it, and the sign of every edge function x y' − y x' is exact, since both products round the same way; so no
 //!   ray slips between triangles that share an edge or a corner. Two deviations: an edge function of 0 is not computed
 //!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within the triangle's
-//!   box, without which there is no hit ([`distance`]).
+//!   box, without which there is no hit ([`Flat`]).
 //! - [`moller_trumbore`] (*Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its determinants expanded along
 //!   the direction instead of the edges: with T = o − a, e1 = b − a, e2 = c − a and N = e1 × e2, det = d·N,
 //!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two
@@ -24,7 +24,7 @@
 use super::face::{self, between};
 use super::methods::TriangleMethod;
 use super::{Nearest, Primitives, Sides, Surface, columns, flat};
-use crate::math::{LaneMask, Lanes, NONE, Vec3};
+use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 
 /// Triangles, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,7 +68,7 @@ impl<T: Copy> Attribute<T> {
     #[inline(always)]
     fn at(&self, i: usize) -> Option<[T; 3]> {
         let corners = self.corners.get(i).filter(|c| c[0] != NONE)?;
-        Some(corners.map(|c| self.values[c as usize]))
+        Some(three(*corners, |c| self.values[c as usize]))
     }
 }
 
@@ -176,7 +176,7 @@ impl Triangles {
     #[inline(always)]
     pub fn corners(&self, i: usize) -> [glam::Vec3; 3] {
         let [a, b, c] = &self.corners;
-        [a, b, c].map(|corner| columns::at(corner, i))
+        three([a, b, c], |corner| columns::at(corner, i))
     }
 
     /// The first corner and the edges from there to the others.
@@ -198,7 +198,7 @@ impl Triangles {
     pub fn shading_normal<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
         let Some(normals) = self.normals.at(i) else { return surface.normal };
         let [u, v] = self.barycentric(i, surface.point);
-        let [a, b, c] = normals.map(Vec3::splat);
+        let [a, b, c] = three(normals, Vec3::splat);
         let n = c.mul_add(v, b.mul_add(u, a * (L::splat(1.0) - u - v)));
         let length2 = n.dot(n);
         let n = n * (L::splat(1.0) / length2.sqrt());
@@ -219,19 +219,19 @@ impl Primitives for Triangles {
     }
     #[inline(always)]
     fn record(&self, i: usize) -> TriangleRecord {
-        let corners = self.corners(i).map(Vec3::from);
+        let corners = three(self.corners(i), Vec3::from);
         TriangleRecord { corners, n: normal(corners), sides: self.sides[i], method: self.method }
     }
     #[inline(always)]
     fn seen<L: Lanes>(r: &TriangleRecord, origin: Vec3<L>) -> SeenTriangle<L> {
-        let corners = r.corners.map(|c| Vec3::splat(c.into()) - origin);
+        let corners = three(r.corners, |c| Vec3::splat(c.into()) - origin);
         let n = Vec3::splat(r.n.into());
         SeenTriangle { corners, n, height: corners[0].dot(n), sides: r.sides, method: r.method }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTriangle<f32>) -> SeenTriangle<L> {
         SeenTriangle {
-            corners: s.corners.map(|c| Vec3::splat(c.into())),
+            corners: three(s.corners, |c| Vec3::splat(c.into())),
             n: Vec3::splat(s.n.into()),
             height: L::splat(s.height),
             sides: s.sides,
@@ -283,7 +283,9 @@ pub fn normal<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> Vec3<L> {
 #[inline(always)]
 pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
     let inside = covers(&seen.corners, aim)?;
-    let (t, inside) = distance(&seen.corners, seen.n, seen.height, aim.direction, inside);
+    let [a, b, c] = seen.corners;
+    let flat = Flat::new(seen.n, seen.height, a.min(b).min(c), a.max(b).max(c));
+    let (t, inside) = flat.distance(aim.direction, inside);
     let inside = inside & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
@@ -292,10 +294,10 @@ pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_ma
 #[inline(always)]
 pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask> {
     let ordered = match aim.major {
-        Some(0) => corners.map(|c| [c.y, c.z, c.x]),
-        Some(1) => corners.map(|c| [c.z, c.x, c.y]),
-        Some(_) => corners.map(|c| [c.x, c.y, c.z]),
-        None => corners.map(|c| in_order(c, aim.on)),
+        Some(0) => three(*corners, |c| [c.y, c.z, c.x]),
+        Some(1) => three(*corners, |c| [c.z, c.x, c.y]),
+        Some(_) => three(*corners, |c| [c.x, c.y, c.z]),
+        None => three(*corners, |c| in_order(c, aim.on)),
     };
     covers_ordered(&ordered, aim.shear)
 }
@@ -303,7 +305,7 @@ pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask>
 /// The same for corners whose components come in the order of those after the directions' largest, and that.
 #[inline(always)]
 pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Option<L::Mask> {
-    let [[ax, ay], [bx, by], [cx, cy]] = corners.map(|[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
+    let [[ax, ay], [bx, by], [cx, cy]] = three(*corners, |[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
     // Not fused: a product that is not rounded would be compared with one that is.
     let (u, v, w) = (cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
@@ -311,35 +313,63 @@ pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Opti
     inside.any().then_some(inside)
 }
 
-/// The second half: how far away, for lines that pass through; where they meet the triangle's box, and within it.
+/// What the second half of [`watertight`] needs of a triangle and of the rays' origin: its plane and its box.
 ///
-/// The plane alone does not tell: edge-on, or where a triangle is smaller than the rounding of its distance, all edge
-/// functions vanish however far a line passes by, and t is off by any number of ε. The box is wider by 32 ε of its
-/// farthest corner's distance along any axis, as a line that touches an edge may pass it by 20 ε.
-#[inline(always)]
-pub fn distance<L: Lanes>(
-    &[a, b, c]: &[Vec3<L>; 3],
-    n: Vec3<L>,
+/// The plane alone does not tell how far a hit is: edge-on, or where a triangle is smaller than the rounding of its
+/// distance, all edge functions vanish however far a line passes by, and t is off by any number of ε. The box is wider by
+/// 32 ε of its farthest corner's distance along any axis, as a line that touches an edge may pass it by 20 ε.
+#[derive(Clone, Copy, Debug)]
+pub struct Flat<L> {
+    /// N.
+    pub n: Vec3<L>,
     height: L,
-    direction: Vec3<L>,
-    inside: L::Mask,
-) -> (L, L::Mask) {
-    let along = n.dot(direction);
-    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-    let Vec3 { x, y, z } = high.max(-low);
-    let pad = x.max(y).max(z) * L::splat(face::PAD);
-    let pad = Vec3::new(pad, pad, pad);
-    let (low, high) = (low - pad, high + pad);
-    let t = height / along;
-    let inside = inside & !along.eq(L::zero());
-    let Vec3 { x, y, z } = direction * t;
-    let in_box = x.ge(low.x) & x.le(high.x) & y.ge(low.y) & y.le(high.y) & z.ge(low.z) & z.le(high.z);
-    let beside = inside & !in_box;
-    if !beside.any() {
-        return (t, inside);
+    low: Vec3<L>,
+    high: Vec3<L>,
+}
+
+impl<L: Lanes> Flat<L> {
+    /// N, a·N, and the corners' least and greatest components, all from the origin.
+    #[inline(always)]
+    pub fn new(n: Vec3<L>, height: L, low: Vec3<L>, high: Vec3<L>) -> Self {
+        let Vec3 { x, y, z } = high.max(-low);
+        let pad = x.max(y).max(z) * L::splat(face::PAD);
+        let pad = Vec3::new(pad, pad, pad);
+        Self { n, height, low: low - pad, high: high + pad }
     }
-    let (nearest, met) = within(low, high, direction, t);
-    (nearest.select(beside, t), inside & (in_box | met))
+
+    /// A triangle by its corners.
+    #[inline(always)]
+    pub fn of([a, b, c]: [Vec3<f32>; 3], origin: Vec3<L>) -> Self {
+        let from = |v: Vec3<f32>| Vec3::splat(v.into()) - origin;
+        let n = Vec3::splat(normal([a, b, c]).into());
+        Self::new(n, from(a).dot(n), from(a.min(b).min(c)), from(a.max(b).max(c)))
+    }
+
+    /// The second half of [`watertight`]: how far away, for lines that pass through; where they meet the box, and within it.
+    #[inline(always)]
+    pub fn distance(&self, direction: Vec3<L>, inside: L::Mask) -> (L, L::Mask) {
+        let Self { n, height, low, high } = *self;
+        let along = n.dot(direction);
+        let t = height / along;
+        let inside = inside & !along.eq(L::zero());
+        let Vec3 { x, y, z } = direction * t;
+        let in_box = x.ge(low.x) & x.le(high.x) & y.ge(low.y) & y.le(high.y) & z.ge(low.z) & z.le(high.z);
+        let beside = inside & !in_box;
+        if !beside.any() {
+            return (t, inside);
+        }
+        let (nearest, met) = within(low, high, direction, t);
+        (nearest.select(beside, t), inside & (in_box | met))
+    }
+}
+
+impl Flat<f32> {
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn splat<L: Lanes>(&self) -> Flat<L> {
+        let [n, low, high] = three([self.n, self.low, self.high], |v| Vec3::splat(v.into()));
+        Flat { n, height: L::splat(self.height), low, high }
+    }
 }
 
 /// `t`, or where the ray enters or leaves the box if that is nearer, and where it meets the box.
@@ -392,7 +422,7 @@ impl SeenEdges<f32> {
     /// The same in every lane.
     #[inline(always)]
     pub fn splat<L: Lanes>(&self) -> SeenEdges<L> {
-        let [n, u, v] = [self.n, self.u, self.v].map(|a| Vec3::splat(a.into()));
+        let [n, u, v] = three([self.n, self.u, self.v], |a| Vec3::splat(a.into()));
         SeenEdges { n, u, v, height: L::splat(self.height) }
     }
 }

@@ -1,6 +1,7 @@
 //! Rays and their answers in structure-of-arrays batches, the unit that both queries work on.
 
 use glam::Vec3;
+use prefetch_index::prefetch_index;
 
 use super::{Lanes, MOST_LANES, Vec3 as Lane3};
 
@@ -10,20 +11,15 @@ pub const BATCH: usize = 256;
 /// No primitive: the id that a ray which hits nothing gets.
 pub const NONE: u32 = u32::MAX;
 
-/// Up to [`BATCH`] rays, column by column.
+/// Up to [`BATCH`] rays, column by column; the columns lie one after the other, each from a cache line's start.
 ///
 /// A ray is active when its `t_max` ≥ 0 (NaN is not). Directions have unit length, to within 4 ε (those of a ray file to
 /// within 84 ε); distances are then in world units. A query looks at the open interval (`t_min`, `t_max`), 0 ≤ `t_min`.
 /// A ray with a NaN or infinite component hits nothing, or whatever the arithmetic makes of it, and leaves the
 /// other rays of its batch alone.
 #[derive(Clone, Debug)]
-#[repr(align(64))]
+#[repr(C, align(64))]
 pub struct RayBatch {
-    /// Rays at `len` and beyond are inactive; kept so by [`RayBatch::push`] and [`RayBatch::set_len`].
-    pub len: usize,
-    /// All active rays start where ray 0 does; nothing else of `origin` is read then. Whoever fills a batch mostly
-    /// knows: eye rays and a light's shadow rays do. When false they may still start at one point, only slower.
-    pub common_origin: bool,
     /// Where the rays start, a column a component.
     pub origin: [[f32; BATCH]; 3],
     /// Unit directions.
@@ -32,6 +28,11 @@ pub struct RayBatch {
     pub t_min: [f32; BATCH],
     /// End of the interval, excluded; below zero for an inactive ray.
     pub t_max: [f32; BATCH],
+    /// Rays at `len` and beyond are inactive; kept so by [`RayBatch::push`] and [`RayBatch::set_len`].
+    pub len: usize,
+    /// All active rays start where ray 0 does; nothing else of `origin` is read then. Whoever fills a batch mostly
+    /// knows: eye rays and a light's shadow rays do. When false they may still start at one point, only slower.
+    pub common_origin: bool,
 }
 
 impl Default for RayBatch {
@@ -48,6 +49,20 @@ impl Default for RayBatch {
 }
 
 impl RayBatch {
+    /// Cache lines that the columns fill.
+    pub(crate) const LINES: usize = 8 * BATCH / 16;
+
+    /// The first of them that a query reads.
+    pub(crate) fn first_line(&self) -> usize {
+        if self.common_origin { 3 * BATCH / 16 } else { 0 }
+    }
+
+    /// Begins to bring one of them near.
+    #[inline(always)]
+    pub(crate) fn fetch(&self, line: usize) {
+        prefetch_index(self.origin[0].as_slice(), 16 * line);
+    }
+
     /// Forgets all rays.
     pub fn clear(&mut self) {
         self.set_len(0);
@@ -119,7 +134,7 @@ impl RayBatch {
 
 /// The nearest hits of a [`RayBatch`]. Entries of inactive rays are left as they were.
 #[derive(Clone, Debug, PartialEq)]
-#[repr(align(64))]
+#[repr(C, align(64))]
 pub struct HitBatch {
     /// Distance; infinite for an active ray that hits nothing.
     pub t: [f32; BATCH],

@@ -16,3 +16,9 @@ pub use lanes::{KERNEL_LANES, LaneMask, Lanes, MOST_LANES};
 pub use power::{exp2, powf};
 pub use srgb::linear_of_bytes;
 pub use vec3::{Vec3, inverse_root};
+
+/// [`array::map`] of three, always inlined: the library's own is a call where the numbers are wide.
+#[inline(always)]
+pub(crate) fn three<T, U>([a, b, c]: [T; 3], mut of: impl FnMut(T) -> U) -> [U; 3] {
+    [of(a), of(b), of(c)]
+}

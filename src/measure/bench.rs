@@ -12,7 +12,7 @@ use super::streams::Streams;
 use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa};
 use crate::render::{Camera, Kernel, render_display, with_lanes};
 use crate::scene::{Description, Scene};
-use crate::trace::{Candidates, intersect, occluded};
+use crate::trace::{Candidates, intersect_stream, occluded_stream};
 
 /// Timed runs of each kernel: as many as fit the budget, within these bounds.
 const RUNS: std::ops::RangeInclusive<usize> = 3..=31;
@@ -237,10 +237,10 @@ impl Answers {
 fn fill<L: Lanes>(answers: &mut Answers, scene: &Scene, batches: &[RayBatch], passes: u64) {
     match answers {
         Answers::Nearest(hits) => each(batches, hits, passes, |rays, hits, scratch| {
-            intersect::<L>(scene, rays, hits, scratch);
+            intersect_stream::<L>(scene, rays, hits, scratch);
         }),
         Answers::Any(blocked) => each(batches, blocked, passes, |rays, blocked, scratch| {
-            occluded::<L>(scene, rays, blocked, scratch);
+            occluded_stream::<L>(scene, rays, blocked, scratch);
         }),
     }
 }
@@ -251,12 +251,10 @@ fn each<A: Send>(
     batches: &[RayBatch],
     answers: &mut [A],
     passes: u64,
-    query: impl Fn(&RayBatch, &mut A, &mut Candidates) + Sync,
+    query: impl Fn(&[RayBatch], &mut [A], &mut Candidates) + Sync,
 ) {
     let share = |scratch: &mut Candidates, (batches, answers): (&[RayBatch], &mut [A])| {
-        for _ in 0..passes {
-            batches.iter().zip(answers.iter_mut()).for_each(|(rays, answer)| query(rays, answer, scratch));
-        }
+        (0..passes).for_each(|_| query(batches, answers, scratch));
     };
     match rayon::current_num_threads() {
         1 => share(&mut Candidates::default(), (batches, answers)),

@@ -174,6 +174,7 @@ impl Lighting {
         any_hits::<L, RICH, MESH>(
             scene,
             rays,
+            None,
             || Some(*bounds),
             scratch,
             #[inline(always)]

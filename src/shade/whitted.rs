@@ -182,6 +182,7 @@ impl Stage<'_> {
         nearest_hits::<L, RICH, MESH>(
             scene,
             &wave.rays,
+            None,
             || Bounds::of::<L>(&wave.rays),
             candidates,
             #[inline(always)]

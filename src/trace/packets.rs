@@ -1,5 +1,6 @@
 //! Packets against candidates, one by one.
 
+use super::ahead::Ahead;
 use super::boxes::Boxes;
 use super::candidates::{Form, Lists};
 use super::query::{Any, Nearest, Query};
@@ -141,10 +142,12 @@ pub fn nearest<F: Form, L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
+    mut ahead: Ahead,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
     let candidates = Found::of(candidates);
     for at in (0..rays.len).step_by(L::WIDTH) {
+        ahead.step(L::WIDTH / 2);
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
         if !active.any() {
@@ -164,10 +167,12 @@ pub fn any<F: Form, L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
+    mut ahead: Ahead,
     mut take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
     let candidates = Found::of(candidates);
     for at in (0..rays.len).step_by(L::WIDTH) {
+        ahead.step(L::WIDTH / 2);
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
         if !active.any() {

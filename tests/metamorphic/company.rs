@@ -1,11 +1,11 @@
-//! The rays beside a ray, of whatever numbers they are, do not change its answer.
+//! The rays beside a ray, of whatever numbers they are, do not change its answer, nor do the batches beside a batch.
 
 use glam::Vec3;
 use proptest::prelude::*;
 use raypacket::{
     math::Lanes,
     scene::{Scene, Structure, compile_as},
-    trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded},
+    trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, intersect_stream, occluded, occluded_stream},
 };
 use wide::{f32x4, f32x8};
 
@@ -88,6 +88,56 @@ fn expect_alone<L: Lanes>(scene: &Scene, rays: &[Ray]) -> Result<(), TestCaseErr
         prop_assert!(found == alone, "{}, ray {i}: {found:?}, alone {alone:?}", L::NAME);
     }
     Ok(())
+}
+
+/// Batch by batch and as a stream; what is left out at the end of the answers stays as it was.
+fn expect_same_in_a_stream<L: Lanes>(
+    scene: &Scene,
+    batches: &[RayBatch],
+    answered: usize,
+) -> Result<(), TestCaseError> {
+    let mut scratch = Candidates::default();
+    let (mut hits, mut blocked) = (vec![HitBatch::default(); batches.len()], vec![Blocked::default(); batches.len()]);
+    let (mut streamed, mut stopped) = (hits.clone(), blocked.clone());
+    for (i, batch) in batches.iter().enumerate().take(answered) {
+        intersect::<L>(scene, batch, &mut hits[i], &mut scratch);
+        occluded::<L>(scene, batch, &mut blocked[i], &mut scratch);
+    }
+    intersect_stream::<L>(scene, batches, &mut streamed[..answered], &mut scratch);
+    occluded_stream::<L>(scene, batches, &mut stopped[..answered], &mut scratch);
+    let bits = |hits: &[HitBatch]| {
+        let bits = |hits: &HitBatch| (hits.t.map(f32::to_bits), hits.primitive);
+        hits.iter().map(bits).collect::<Vec<_>>()
+    };
+    prop_assert!(bits(&hits) == bits(&streamed), "{}", L::NAME);
+    prop_assert!(blocked == stopped, "{}", L::NAME);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(config(200, 0xa5))]
+
+    #[test]
+    fn a_stream_answers_as_its_batches_do(
+        items in items(),
+        parts in prop::collection::vec(rays(), 0..5),
+        answered in 0..5_usize,
+    ) {
+        let description = scene(&items);
+        let batches: Vec<RayBatch> = parts
+            .iter()
+            .map(|rays| {
+                let mut batch = RayBatch::default();
+                rays.iter().for_each(|ray| ray.push(&mut batch));
+                batch
+            })
+            .collect();
+        for structure in [Structure::None, Structure::Tree] {
+            let compiled = compile_as(&description, Some(structure)).expect("a sound scene");
+            expect_same_in_a_stream::<f32>(&compiled, &batches, answered.min(batches.len()))?;
+            expect_same_in_a_stream::<f32x8>(&compiled, &batches, answered.min(batches.len()))?;
+        }
+    }
 }
 
 proptest! {

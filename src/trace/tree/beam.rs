@@ -12,7 +12,7 @@
 //! (2013), adds it to the exit; here every face is moved, as the primitives' own error goes across the ray as well). So all
 //! boxes are wider by [`PAD`] (D + |o|) on all sides. No hit is found before the ray enters that box: the spheres'
 //! test errs as if the sphere were larger by 12 ε |f|, and all others keep their hits within boxes of their own, wider
-//! by 32 ε D ([`crate::geometry::triangle::distance`], [`super::super::boxes`]). The spheres' error is 21 ε D at most, as
+//! by 32 ε D ([`crate::geometry::triangle::Flat`], [`super::super::boxes`]). The spheres' error is 21 ε D at most, as
 //! |f| ≤ √3 D; their boxes, rounded to nearest, add ε (D + |o|), a direction that is 84 ε too long or short, as a ray
 //! file's may be, less than 30 ε of a radius: less than 64 in all.
 

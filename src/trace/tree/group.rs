@@ -8,6 +8,9 @@ use wide::f32x8;
 use super::Walk;
 use super::beam::Beam;
 
+/// Of the next batch, by the way, at every step of the descent.
+pub const LINES: usize = 8;
+
 impl Walk<'_> {
     /// Traces the rays of a range, which all are in the beam.
     #[inline(always)]
@@ -31,11 +34,13 @@ impl Walk<'_> {
         let mut child = bvh.root;
         loop {
             let i = child.index();
+            self.ahead.step(LINES);
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[i];
                     let (enter, met) = beam.meets::<MIXED>(|axis, near| node.faces(axis, near), f32x8::splat(limit));
                     if met != 0 {
+                        bvh.fetch(node, met);
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
                         continue;
                     }

@@ -2,9 +2,9 @@
 
 use crate::bvh::{SphereBlock, TriangleBlock};
 use crate::geometry::methods::TriangleMethod;
-use crate::geometry::triangle::{Aim, covers, covers_ordered, distance, normal, there};
+use crate::geometry::triangle::{Aim, Flat, covers, covers_ordered, there};
 use crate::geometry::{Primitives, Sides, SphereRecord, Spheres, Triangles};
-use crate::math::{LaneMask, Lanes, NONE, Vec3};
+use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 use crate::scene::with_primitive;
 use std::ops::Range;
 use wide::f32x8;
@@ -28,7 +28,7 @@ impl Walk<'_> {
             return self.named_triangles::<L, ANY>(block, range);
         }
         let faces = |axis: usize, near: usize| {
-            let [a, b, c] = [0, 1, 2].map(|k| f32x8::from(block.corners[k][axis]));
+            let [a, b, c] = three([0, 1, 2], |k| f32x8::from(block.corners[k][axis]));
             near_first(near, Lanes::min(a, Lanes::min(b, c)), Lanes::max(a, Lanes::max(b, c)))
         };
         let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
@@ -41,24 +41,25 @@ impl Walk<'_> {
                 break;
             }
             let corners = block.triangle(lane);
+            self.ahead.step(super::group::LINES);
             for at in range.clone().step_by(L::WIDTH) {
                 let origin = self.rays.origins::<L>(at);
                 let inside = match beam.major {
                     Some(major) => {
                         let origin = origin.ordered(major);
-                        let corner = |k: usize| -> [L; 3] {
-                            let axis = |i: usize| L::splat(block.corners[k][(major + 1 + i) % 3][lane]) - origin[i];
-                            [axis(0), axis(1), axis(2)]
-                        };
-                        covers_ordered(&[corner(0), corner(1), corner(2)], self.state.shear(at))
+                        let axis =
+                            |k: usize, i: usize| L::splat(block.corners[k][(major + 1 + i) % 3][lane]) - origin[i];
+                        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
+                        covers_ordered(&seen, self.state.shear(at))
                     }
                     None => {
                         let aim = Aim::new(Vec3::load(&self.rays.direction, at));
-                        covers(&corners.map(|c| Vec3::splat(c) - origin), &aim)
+                        covers(&three(corners, |c| Vec3::splat(c) - origin), &aim)
                     }
                 };
                 let Some(inside) = inside else { continue };
-                taken |= self.triangle::<L, ANY, RARE>(at, corners, inside, id);
+                let flat = Flat::of(three(corners, Vec3::from), origin);
+                taken |= self.triangle::<L, ANY, RARE>(at, &flat, inside, id);
             }
         }
         taken
@@ -80,18 +81,15 @@ impl Walk<'_> {
     pub fn triangle<L: Lanes, const ANY: bool, const RARE: bool>(
         &mut self,
         at: usize,
-        corners: [glam::Vec3; 3],
+        flat: &Flat<L>,
         inside: L::Mask,
         id: u32,
     ) -> bool {
         let direction = Vec3::load(&self.rays.direction, at);
-        let origin = self.rays.origins::<L>(at);
-        let seen = corners.map(|c| Vec3::splat(c) - origin);
-        let n = Vec3::splat(normal(corners.map(Vec3::<f32>::from)).into());
-        let (t, mut inside) = distance(&seen, n, seen[0].dot(n), direction, inside);
+        let (t, mut inside) = flat.distance(direction, inside);
         if RARE {
             inside = inside
-                & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], n.dot(direction));
+                & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], flat.n.dot(direction));
         }
         let inside = inside & t.gt(L::load(&self.rays.t_min[at..]));
         inside.any() && self.state.take::<L, ANY>(at, t, inside, id)

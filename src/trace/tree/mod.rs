@@ -22,6 +22,7 @@ mod state;
 
 pub use state::State;
 
+use super::ahead::Ahead;
 use super::bounds::Bounds;
 use super::query::Nearest;
 use crate::bvh::Bvh;
@@ -51,6 +52,7 @@ struct Walk<'a> {
     scene: &'a Scene,
     bvh: &'a Bvh,
     rays: &'a RayBatch,
+    ahead: Ahead<'a>,
     state: &'a mut State,
 }
 
@@ -60,11 +62,12 @@ pub fn nearest<L: Lanes, const RARE: bool>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
+    ahead: Ahead,
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
     mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
-    answer::<L, false, RARE>(scene, bvh, rays, bounds, state);
+    answer::<L, false, RARE>(scene, bvh, rays, ahead, bounds, state);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let active = L::load(&rays.t_max[at..]).ge(L::zero());
         if active.any() {
@@ -80,11 +83,12 @@ pub fn any<L: Lanes, const RARE: bool>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
+    ahead: Ahead,
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
     mut take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
-    answer::<L, true, RARE>(scene, bvh, rays, bounds, state);
+    answer::<L, true, RARE>(scene, bvh, rays, ahead, bounds, state);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let active = L::load(&rays.t_max[at..]).ge(L::zero());
         if active.any() {
@@ -99,11 +103,12 @@ fn answer<L: Lanes, const ANY: bool, const RARE: bool>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
+    ahead: Ahead,
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
 ) {
     state.start::<L::Wider>(rays, !bvh.triangles.is_empty());
-    let mut walk = Walk { scene, bvh, rays, state };
+    let mut walk = Walk { scene, bvh, rays, ahead, state };
     if !scene.planes.is_empty() {
         let Some(bounds) = bounds() else { return };
         walk.planes::<L, ANY>(&bounds);

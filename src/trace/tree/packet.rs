@@ -6,8 +6,8 @@
 use crate::bvh::{Child, Kind, MOST_DEPTH, Node};
 use crate::geometry::Spheres;
 use crate::geometry::methods::TriangleMethod;
-use crate::geometry::triangle::{Aim, covers};
-use crate::math::{BATCH, LaneMask, Lanes, NONE, Vec3};
+use crate::geometry::triangle::{Aim, Flat, covers};
+use crate::math::{BATCH, LaneMask, Lanes, NONE, Vec3, three};
 use wide::f32x16;
 
 use super::Walk;
@@ -15,6 +15,8 @@ use super::line::Lines;
 
 /// Rays of a packet.
 pub const RAYS: usize = 16;
+/// Of the next batch, by the way, at every step of the descent.
+const LINES: usize = 2;
 /// As many go on one by one.
 const FEW: u32 = 5;
 
@@ -74,14 +76,14 @@ struct Packet {
 impl Packet {
     #[inline(always)]
     fn new(lines: &Lines, at: usize, active: u32) -> Self {
-        let load = |columns: &[[f32; BATCH]; 3]| [0, 1, 2].map(|axis| f32x16::load(&columns[axis][at..]));
+        let load = |columns: &[[f32; BATCH]; 3]| three([0, 1, 2], |axis| f32x16::load(&columns[axis][at..]));
         let inverse = load(&lines.inverse);
-        let behind = inverse.map(|inverse| LaneMask::bits(Lanes::lt(inverse, f32x16::ZERO)) & active);
+        let behind = three(inverse, |inverse| LaneMask::bits(Lanes::lt(inverse, f32x16::ZERO)) & active);
         Self {
             inverse,
             near: load(&lines.near),
             far: load(&lines.far),
-            side: behind.map(|b| usize::from(b != 0)),
+            side: three(behind, |b| usize::from(b != 0)),
             mixed: behind.into_iter().any(|b| b != 0 && b != active),
         }
     }
@@ -132,6 +134,7 @@ impl Walk<'_> {
         self.state.parts.len = 0;
         let mut part = Part { enter: 0.0, child: self.bvh.root, lanes: self.looking(at, 0.0) };
         loop {
+            self.ahead.step(LINES);
             let few = part.lanes.count_ones() <= FEW;
             match part.child.kind() {
                 Kind::Node if few => each(part.lanes, |lane| self.single::<ANY, RARE>(at + lane, part.child)),
@@ -164,6 +167,7 @@ impl Walk<'_> {
             let (enter, met) = packet.meets::<MIXED>(node, lane, end);
             let lanes = met & part.lanes;
             if lanes != 0 {
+                self.bvh.fetch_child(child);
                 let far = f32x16::splat(f32::INFINITY);
                 let enter = Lanes::select(enter, LaneMask::from_bits(lanes), far).least();
                 self.state.parts.sort_in(base, Part { enter, child, lanes });
@@ -182,10 +186,10 @@ impl Walk<'_> {
         let aim = Aim::new(Vec3::<f32x16>::load(&self.rays.direction, at));
         let origin = self.rays.origins::<f32x16>(at);
         for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
-            let corners = block.triangle(lane);
-            let seen = corners.map(|corner| Vec3::splat(corner) - origin);
+            let corners = three(block.triangle(lane), Vec3::from);
+            let seen = three(corners, |corner| Vec3::splat(corner.into()) - origin);
             if let Some(inside) = covers(&seen, &aim) {
-                self.triangle::<f32x16, ANY, RARE>(at, corners, inside, id);
+                self.triangle::<f32x16, ANY, RARE>(at, &Flat::of(corners, origin), inside, id);
             }
         }
     }

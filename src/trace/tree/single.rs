@@ -2,9 +2,9 @@
 
 use crate::bvh::{Child, Kind, SphereBlock, TriangleBlock};
 use crate::geometry::methods::{SphereMethod, TriangleMethod};
-use crate::geometry::triangle::{Aim, covers_ordered, distance, normal};
+use crate::geometry::triangle::{Aim, Flat, covers_ordered, normal};
 use crate::geometry::{Primitives, Sides, Spheres, sphere};
-use crate::math::{LaneMask, Lanes, NONE, Vec3};
+use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 use wide::f32x8;
 
 use super::Walk;
@@ -30,7 +30,10 @@ impl Ray {
             direction: Vec3::splat(direction.into()),
             t_min: f32x8::splat(walk.rays.t_min[i]),
             major: Aim::major_of(direction),
-            shear: walk.state.shear::<f32>(i).map(f32x8::splat),
+            shear: {
+                let [p, q] = walk.state.shear::<f32>(i);
+                [f32x8::splat(p), f32x8::splat(q)]
+            },
         }
     }
 }
@@ -54,6 +57,7 @@ impl Walk<'_> {
                     let node = &bvh.nodes[child.index()];
                     let (enter, met) = line.meets(node, f32x8::splat(limit));
                     if met != 0 {
+                        bvh.fetch(node, met);
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
                         continue;
                     }
@@ -98,18 +102,18 @@ impl Walk<'_> {
             return self.named_triangles::<f32, ANY>(block, ray.i..ray.i + 1);
         }
         let from = ray.origin.ordered(ray.major);
-        let corner = |k: usize| -> [f32x8; 3] {
-            let axis = |i: usize| f32x8::from(block.corners[k][(ray.major + 1 + i) % 3]) - from[i];
-            [axis(0), axis(1), axis(2)]
-        };
-        let Some(inside) = covers_ordered(&[corner(0), corner(1), corner(2)], ray.shear) else { return false };
+        let axis = |k: usize, i: usize| f32x8::from(block.corners[k][(ray.major + 1 + i) % 3]) - from[i];
+        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
+        let Some(inside) = covers_ordered(&seen, ray.shear) else { return false };
         if RARE {
             return self.each_triangle::<ANY>(ray.i, block, inside.bits());
         }
-        let corners = [0, 1, 2].map(|k| Vec3::load(&block.corners[k], 0));
-        let seen = corners.map(|c| c - ray.origin);
+        let corners = three([0, 1, 2], |k| Vec3::load(&block.corners[k], 0));
+        let seen = three(corners, |c| c - ray.origin);
         let n = normal(corners);
-        let (t, inside) = distance(&seen, n, seen[0].dot(n), ray.direction, inside);
+        let [a, b, c] = seen;
+        let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
+        let (t, inside) = flat.distance(ray.direction, inside);
         self.take_eight::<ANY>(ray.i, t, inside & Lanes::gt(t, ray.t_min), &block.id)
     }
 
@@ -148,7 +152,8 @@ impl Walk<'_> {
             let lane = bits.trailing_zeros() as usize & 7;
             bits &= bits - 1;
             if block.id[lane] != NONE {
-                taken |= self.triangle::<f32, ANY, true>(i, block.triangle(lane), true, block.id[lane]);
+                let flat = Flat::of(three(block.triangle(lane), Vec3::from), self.rays.origins(i));
+                taken |= self.triangle::<f32, ANY, true>(i, &flat, true, block.id[lane]);
             }
         }
         taken

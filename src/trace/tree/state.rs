@@ -46,21 +46,27 @@ impl State {
     pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
         // Beams look at eight rays at a time and packets at sixteen, whatever the width.
         self.t[rays.len..rays.len.next_multiple_of(MOST_LANES)].fill(f32::NAN);
-        for at in (0..rays.len).step_by(L::WIDTH) {
-            let t_max = L::load(&rays.t_max[at..]);
-            t_max.select(t_max.ge(L::zero()), L::splat(f32::NAN)).store(&mut self.t[at..]);
-            L::splat_id(NONE).store_ids(&mut self.id[at..]);
-        }
-        if rays.common_origin && !rays.first_origin().is_finite() {
-            self.t[..rays.len].fill(f32::NAN);
-        }
-        // Column by column, as they lie in memory.
+        // Column by column, as they lie in memory: what comes from there comes at twice the speed.
+        self.t[..rays.len].fill(0.0);
         let origins = rays.origin.iter().filter(|_| !rays.common_origin);
         for column in origins.chain(&rays.direction) {
             for at in (0..rays.len).step_by(L::WIDTH) {
                 // 0 · ∞ is NaN.
                 L::load(&column[at..]).mul_add(L::zero(), L::load(&self.t[at..])).store(&mut self.t[at..]);
             }
+        }
+        for at in (0..rays.len).step_by(L::WIDTH) {
+            let t_min = L::load(&rays.t_min[at..]);
+            L::load(&self.t[at..]).select(t_min.eq(t_min), L::splat(f32::NAN)).store(&mut self.t[at..]);
+        }
+        for at in (0..rays.len).step_by(L::WIDTH) {
+            let t_max = L::load(&rays.t_max[at..]);
+            let t = t_max + L::load(&self.t[at..]);
+            t.select(t_max.ge(L::zero()), L::splat(f32::NAN)).store(&mut self.t[at..]);
+            L::splat_id(NONE).store_ids(&mut self.id[at..]);
+        }
+        if rays.common_origin && !rays.first_origin().is_finite() {
+            self.t[..rays.len].fill(f32::NAN);
         }
         if triangles {
             for at in (0..rays.len).step_by(L::WIDTH) {
