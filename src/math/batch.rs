@@ -148,6 +148,17 @@ impl Default for HitBatch {
     }
 }
 
+impl HitBatch {
+    /// Cache lines that the columns fill.
+    pub(crate) const LINES: usize = 2 * BATCH / 16;
+
+    /// Begins to bring one of them near.
+    #[inline(always)]
+    pub(crate) fn fetch(&self, line: usize) {
+        prefetch_index(self.t.as_slice(), 16 * line);
+    }
+}
+
 /// Which rays of a [`RayBatch`] are blocked, a bit each; bits of inactive rays are left as they were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Blocked {

@@ -5,7 +5,7 @@ use super::surface::Surfaces;
 use super::wave::{Observer, Wave};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene, ShadowStart};
-use crate::trace::{Bounds, Candidates, Extent, Span, any_hits};
+use crate::trace::{Ahead, Bounds, Candidates, Extent, Span, any_hits};
 
 /// 1 / (4 π).
 const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
@@ -174,7 +174,7 @@ impl Lighting {
         any_hits::<L, RICH, MESH>(
             scene,
             rays,
-            None,
+            Ahead::NOTHING,
             || Some(*bounds),
             scratch,
             #[inline(always)]

@@ -11,7 +11,7 @@ use super::{sky, spawn};
 use crate::geometry::Primitives;
 use crate::math::{BATCH, LaneMask, Lanes, Vec3};
 use crate::scene::{LEAST_WEIGHT, Scene};
-use crate::trace::{Bounds, Candidates, Probe, nearest_hits};
+use crate::trace::{Ahead, Bounds, Candidates, Probe, nearest_hits};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -182,7 +182,7 @@ impl Stage<'_> {
         nearest_hits::<L, RICH, MESH>(
             scene,
             &wave.rays,
-            None,
+            Ahead::NOTHING,
             || Bounds::of::<L>(&wave.rays),
             candidates,
             #[inline(always)]

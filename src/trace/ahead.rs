@@ -1,35 +1,38 @@
 //! The batch that a stream comes to next, brought near while the one before it is on its way.
 
-use crate::math::RayBatch;
+use crate::math::{HitBatch, RayBatch};
 
-/// What of the next batch is still far.
+/// What of the next batch, and of where its hits go, is still far.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ahead<'a> {
-    next: Option<&'a RayBatch>,
+pub(crate) struct Ahead<'a> {
+    rays: Option<&'a RayBatch>,
+    hits: Option<&'a HitBatch>,
     line: usize,
 }
 
 impl<'a> Ahead<'a> {
-    /// Of a batch, or of none.
-    pub fn of(next: Option<&'a RayBatch>) -> Self {
-        Self { next, line: next.map_or(RayBatch::LINES, RayBatch::first_line) }
+    /// Nothing comes next, or it is near already.
+    pub const NOTHING: Self = Self { rays: None, hits: None, line: RayBatch::LINES + HitBatch::LINES };
+
+    /// A batch and its hits, where there are any.
+    pub fn of(rays: Option<&'a RayBatch>, hits: Option<&'a HitBatch>) -> Self {
+        Self { rays, hits, line: rays.map_or(Self::NOTHING.line, RayBatch::first_line) }
     }
 
     /// Brings a few more lines near. All at once would be as slow as to wait for them: a core waits for only some two
     /// dozen at a time.
     #[inline(always)]
     pub fn step(&mut self, lines: usize) {
-        if self.line < RayBatch::LINES {
-            self.fetch(lines);
+        if self.line >= Self::NOTHING.line {
+            return;
         }
-    }
-
-    #[inline(always)]
-    fn fetch(&mut self, lines: usize) {
-        let end = RayBatch::LINES.min(self.line + lines);
-        if let Some(next) = self.next {
-            (self.line..end).for_each(|line| next.fetch(line));
+        if self.line >= RayBatch::LINES {
+            if let Some(hits) = self.hits {
+                (self.line..self.line + lines).for_each(|line| hits.fetch(line - RayBatch::LINES));
+            }
+        } else if let Some(rays) = self.rays {
+            (self.line..self.line + lines).for_each(|line| rays.fetch(line));
         }
-        self.line = end;
+        self.line += lines;
     }
 }

@@ -20,7 +20,7 @@ pub use single::{Hit, Probe, intersect_one, occluded_one};
 use crate::geometry::Primitives;
 use crate::math::{LaneMask, Lanes};
 use crate::scene::Scene;
-use ahead::Ahead;
+pub(crate) use ahead::Ahead;
 pub(crate) use bounds::{Bounds, Extent, Span};
 use candidates::View;
 pub(crate) use query::Nearest;
@@ -30,50 +30,69 @@ pub(crate) use query::Nearest;
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
 /// rays of the batch, unless it has NaN or infinite components. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
-    intersect_before::<L>(scene, rays, None, hits, scratch);
+    intersect_before::<L>(scene, rays, Ahead::NOTHING, hits, scratch);
 }
 
 /// [`intersect()`] for many batches, one after the other: each is brought near while the one before it is traced, which
 /// is worth a tenth to a sixth where they come from memory. Stops where either slice ends.
 pub fn intersect_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Candidates) {
-    for (i, (batch, hits)) in rays.iter().zip(hits).enumerate() {
-        intersect_before::<L>(scene, batch, rays.get(i + 1), hits, scratch);
+    let mut rest = hits;
+    for (i, batch) in rays.iter().enumerate() {
+        let Some((hits, later)) = rest.split_first_mut() else { return };
+        intersect_before::<L>(scene, batch, Ahead::of(rays.get(i + 1), later.first()), hits, scratch);
+        rest = later;
     }
 }
 
 fn intersect_before<L: Lanes>(
     scene: &Scene,
     rays: &RayBatch,
-    next: Option<&RayBatch>,
+    ahead: Ahead,
     hits: &mut HitBatch,
     scratch: &mut Candidates,
 ) {
     match (scene.plan.rare, scene.triangles.is_empty()) {
-        (false, true) => nearest_of::<L, false, false>(scene, rays, next, hits, scratch),
-        (false, false) => nearest_of::<L, false, true>(scene, rays, next, hits, scratch),
-        (true, _) => nearest_of::<L, true, true>(scene, rays, next, hits, scratch),
+        (false, true) => nearest_of::<L, false, false>(scene, rays, ahead, hits, scratch),
+        (false, false) => nearest_of::<L, false, true>(scene, rays, ahead, hits, scratch),
+        (true, _) => nearest_of::<L, true, true>(scene, rays, ahead, hits, scratch),
     }
 }
 
 fn nearest_of<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
-    next: Option<&RayBatch>,
+    ahead: Ahead,
     hits: &mut HitBatch,
     scratch: &mut Candidates,
 ) {
-    nearest_hits::<L, RARE, MESH>(
-        scene,
-        rays,
-        next,
-        || Bounds::of::<L>(rays),
-        scratch,
-        #[inline(always)]
-        |at, active, hit| {
-            let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
-            L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
-        },
-    );
+    match &scene.bvh {
+        // The answers lie side by side: written at the tree's own width.
+        Some(bvh) => tree::nearest::<L::Wider, RARE>(
+            scene,
+            bvh,
+            rays,
+            ahead,
+            || Bounds::of::<L>(rays),
+            scratch.tree(),
+            #[inline(always)]
+            |at, active, hit| keep(hits, at, active, hit),
+        ),
+        None => nearest_hits::<L, RARE, MESH>(
+            scene,
+            rays,
+            ahead,
+            || Bounds::of::<L>(rays),
+            scratch,
+            #[inline(always)]
+            |at, active, hit| keep(hits, at, active, hit),
+        ),
+    }
+}
+
+#[inline(always)]
+fn keep<L: Lanes>(hits: &mut HitBatch, at: usize, active: L::Mask, hit: &Nearest<L>) {
+    let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
+    L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
 }
 
 /// Whether anything lies in the interval of each active ray, in packets of `L::WIDTH`; a packet is left as soon as
@@ -81,41 +100,41 @@ fn nearest_of<L: Lanes, const RARE: bool, const MESH: bool>(
 ///
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
-    occluded_before::<L>(scene, rays, None, blocked, scratch);
+    occluded_before::<L>(scene, rays, Ahead::NOTHING, blocked, scratch);
 }
 
 /// [`occluded()`] for many batches, as [`intersect_stream`].
 pub fn occluded_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], blocked: &mut [Blocked], scratch: &mut Candidates) {
     for (i, (batch, blocked)) in rays.iter().zip(blocked).enumerate() {
-        occluded_before::<L>(scene, batch, rays.get(i + 1), blocked, scratch);
+        occluded_before::<L>(scene, batch, Ahead::of(rays.get(i + 1), None), blocked, scratch);
     }
 }
 
 fn occluded_before<L: Lanes>(
     scene: &Scene,
     rays: &RayBatch,
-    next: Option<&RayBatch>,
+    ahead: Ahead,
     blocked: &mut Blocked,
     scratch: &mut Candidates,
 ) {
     match (scene.plan.rare, scene.triangles.is_empty()) {
-        (false, true) => any_of::<L, false, false>(scene, rays, next, blocked, scratch),
-        (false, false) => any_of::<L, false, true>(scene, rays, next, blocked, scratch),
-        (true, _) => any_of::<L, true, true>(scene, rays, next, blocked, scratch),
+        (false, true) => any_of::<L, false, false>(scene, rays, ahead, blocked, scratch),
+        (false, false) => any_of::<L, false, true>(scene, rays, ahead, blocked, scratch),
+        (true, _) => any_of::<L, true, true>(scene, rays, ahead, blocked, scratch),
     }
 }
 
 fn any_of<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
-    next: Option<&RayBatch>,
+    ahead: Ahead,
     blocked: &mut Blocked,
     scratch: &mut Candidates,
 ) {
     any_hits::<L, RARE, MESH>(
         scene,
         rays,
-        next,
+        ahead,
         || Bounds::of::<L>(rays),
         scratch,
         #[inline(always)]
@@ -125,18 +144,17 @@ fn any_of<L: Lanes, const RARE: bool, const MESH: bool>(
 
 /// [`intersect()`] for rays whose bounds may be known; they are only asked for where they are needed. `RARE` must be
 /// true where the plan is rare, `MESH` where that is or there are triangles; both may be true without need. `take`
-/// gets every packet's answer while it is in registers. `next` is the batch that is traced after this one, where that is
-/// known.
+/// gets every packet's answer while it is in registers. `ahead` is what
+/// is traced after this batch.
 #[inline(always)]
 pub(crate) fn nearest_hits<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
-    next: Option<&RayBatch>,
+    ahead: Ahead,
     bounds: impl FnOnce() -> Option<Bounds>,
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, &Nearest<L>),
 ) {
-    let ahead = Ahead::of(next);
     if let Some(bvh) = &scene.bvh {
         return tree::nearest::<L, RARE>(scene, bvh, rays, ahead, bounds, scratch.tree(), take);
     }
@@ -152,12 +170,11 @@ pub(crate) fn nearest_hits<L: Lanes, const RARE: bool, const MESH: bool>(
 pub(crate) fn any_hits<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
     rays: &RayBatch,
-    next: Option<&RayBatch>,
+    ahead: Ahead,
     bounds: impl FnOnce() -> Option<Bounds>,
     scratch: &mut Candidates,
     take: impl FnMut(usize, L::Mask, L::Mask),
 ) {
-    let ahead = Ahead::of(next);
     if let Some(bvh) = &scene.bvh {
         return tree::any::<L, RARE>(scene, bvh, rays, ahead, bounds, scratch.tree(), take);
     }

@@ -47,12 +47,12 @@ impl State {
         // Beams look at eight rays at a time and packets at sixteen, whatever the width.
         self.t[rays.len..rays.len.next_multiple_of(MOST_LANES)].fill(f32::NAN);
         // Column by column, as they lie in memory: what comes from there comes at twice the speed.
-        self.t[..rays.len].fill(0.0);
         let origins = rays.origin.iter().filter(|_| !rays.common_origin);
-        for column in origins.chain(&rays.direction) {
+        for (i, column) in origins.chain(&rays.direction).enumerate() {
             for at in (0..rays.len).step_by(L::WIDTH) {
+                let others = if i == 0 { L::zero() } else { L::load(&self.t[at..]) };
                 // 0 · ∞ is NaN.
-                L::load(&column[at..]).mul_add(L::zero(), L::load(&self.t[at..])).store(&mut self.t[at..]);
+                L::load(&column[at..]).mul_add(L::zero(), others).store(&mut self.t[at..]);
             }
         }
         for at in (0..rays.len).step_by(L::WIDTH) {
