@@ -46,7 +46,7 @@
 //! - [`measure`]: rays a second, and how right they are; the hard cases, the laboratory and its charts
 //! - [`render`]: camera, tiles, film, tone mapping, picture files
 //! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
-//! - [`trace`]: the two queries, over a compiled scene
+//! - [`trace`]: the two queries over a compiled scene, for a batch of rays or a stream of them
 //! - [`scene`]: what the user wrote, its readers and rules, the built-in scenes, `compile`, the plan
 //! - [`bvh`]: the acceleration structure: build and layout
 //! - [`geometry`]: a file a primitive: storage, tests by named [`geometry::methods`], surface

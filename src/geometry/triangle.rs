@@ -15,7 +15,7 @@
 //!   triangles that share an edge.
 //!
 //! - [`edge_planes`]: the side of a direction to the three planes through the origin and an edge, d·(b × c) and so on,
-//!   which rays of one origin share, though here each packet computes them (Davidovič, Engelhardt, Georgiev, Slusallek, Dachsbacher, *3D Rasterization*, 2012, §2).
+//!   which rays of one origin share (Davidovič, Engelhardt, Georgiev, Slusallek, Dachsbacher, *3D Rasterization*, 2012, §2).
 //!   Alike on both sides of an edge, as every product rounds alike. But b × c cancels: the plane is off by ε |b|² over the
 //!   edge's length, so that from 10,000 sizes away it hits what it likes.
 //!
@@ -85,11 +85,12 @@ pub struct TriangleRecord {
     pub method: TriangleMethod,
 }
 
-/// What [`watertight`] needs of a triangle and of the rays' origin.
+/// What a triangle's method needs of it and of the rays' origin.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenTriangle<L> {
-    /// The corners, from the origin.
-    pub corners: [Vec3<L>; 3],
+    /// The corners from the origin for [`watertight`], the planes through it and an edge for [`edge_planes`], u and v of
+    /// [`SeenEdges`] for [`moller_trumbore`].
+    pub parts: [Vec3<L>; 3],
     /// N.
     pub n: Vec3<L>,
     /// a·N, from the origin.
@@ -226,12 +227,17 @@ impl Primitives for Triangles {
     fn seen<L: Lanes>(r: &TriangleRecord, origin: Vec3<L>) -> SeenTriangle<L> {
         let corners = three(r.corners, |c| Vec3::splat(c.into()) - origin);
         let n = Vec3::splat(r.n.into());
-        SeenTriangle { corners, n, height: corners[0].dot(n), sides: r.sides, method: r.method }
+        let parts = match r.method {
+            TriangleMethod::Watertight => corners,
+            TriangleMethod::MollerTrumbore => edges_of(corners),
+            TriangleMethod::EdgePlanes => planes(corners),
+        };
+        SeenTriangle { parts, n, height: corners[0].dot(n), sides: r.sides, method: r.method }
     }
     #[inline(always)]
     fn splat<L: Lanes>(s: &SeenTriangle<f32>) -> SeenTriangle<L> {
         SeenTriangle {
-            corners: three(s.corners, |c| Vec3::splat(c.into())),
+            parts: three(s.parts, |part| Vec3::splat(part.into())),
             n: Vec3::splat(s.n.into()),
             height: L::splat(s.height),
             sides: s.sides,
@@ -245,7 +251,10 @@ impl Primitives for Triangles {
         }
         let (t, inside) = match seen.method {
             TriangleMethod::Watertight => watertight(seen, aim, t_min, t_max),
-            TriangleMethod::MollerTrumbore => moller_trumbore(&SeenEdges::of(seen), aim.direction, t_min, t_max),
+            TriangleMethod::MollerTrumbore => {
+                let SeenTriangle { parts: [u, v, _], n, height, .. } = *seen;
+                moller_trumbore(&SeenEdges { n, u, v, height }, aim.direction, t_min, t_max)
+            }
             TriangleMethod::EdgePlanes => edge_planes(seen, aim.direction, t_min, t_max),
         }?;
         if seen.sides == Sides::Both {
@@ -282,8 +291,8 @@ pub fn normal<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> Vec3<L> {
 /// The default; see the module's text.
 #[inline(always)]
 pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let inside = covers(&seen.corners, aim)?;
-    let [a, b, c] = seen.corners;
+    let inside = covers(&seen.parts, aim)?;
+    let [a, b, c] = seen.parts;
     let flat = Flat::new(seen.n, seen.height, a.min(b).min(c), a.max(b).max(c));
     let (t, inside) = flat.distance(aim.direction, inside);
     let inside = inside & t.gt(t_min) & t.lt(t_max);
@@ -402,13 +411,10 @@ pub struct SeenEdges<L> {
     pub height: L,
 }
 
-impl<L: Lanes> SeenEdges<L> {
-    /// A triangle as seen by [`watertight`], by its edges.
-    #[inline(always)]
-    pub fn of(seen: &SeenTriangle<L>) -> Self {
-        let [a, b, c] = seen.corners;
-        Self { n: seen.n, u: (c - a).cross(a), v: a.cross(b - a), height: seen.height }
-    }
+/// u and v of [`SeenEdges`] of a triangle by its corners, from the origin.
+#[inline(always)]
+fn edges_of<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> [Vec3<L>; 3] {
+    [(c - a).cross(a), a.cross(b - a), a]
 }
 
 impl SeenEdges<f32> {
@@ -442,15 +448,19 @@ pub fn moller_trumbore<L: Lanes>(seen: &SeenEdges<L>, direction: Vec3<L>, t_min:
     inside.any().then_some((t, inside))
 }
 
-/// See the module's text.
+/// The normals of the planes through the origin and an edge, of a triangle by its corners, from the origin.
+#[inline(always)]
+fn planes<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> [Vec3<L>; 3] {
+    // Not fused, so that b × a is −(a × b) to the bit.
+    let normal =
+        |p: Vec3<L>, q: Vec3<L>| Vec3::new(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x);
+    [normal(b, c), normal(c, a), normal(a, b)]
+}
+
+/// See the module's text; a triangle that is seen by this method.
 #[inline(always)]
 pub fn edge_planes<L: Lanes>(seen: &SeenTriangle<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    // Not fused, so that b × a is −(a × b) to the bit.
-    let plane = |p: Vec3<L>, q: Vec3<L>| {
-        Vec3::new(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x).dot(direction)
-    };
-    let [a, b, c] = seen.corners;
-    let (u, v, w) = (plane(b, c), plane(c, a), plane(a, b));
+    let [u, v, w] = three(seen.parts, |plane| plane.dot(direction));
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
     let t = seen.height / seen.n.dot(direction);
     let inside = (least.ge(L::zero()) | most.le(L::zero())) & t.gt(t_min) & t.lt(t_max);
@@ -470,7 +480,8 @@ mod tests {
         let found = watertight(&Triangles::seen(&record, o), &aim, 0.0, f32::INFINITY).map(|(t, _)| t);
         let edges = SeenEdges::new(&record, o);
         assert_eq!(moller_trumbore(&edges, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
-        let seen = Triangles::seen(&record, o);
+        triangles.method = TriangleMethod::EdgePlanes;
+        let seen = Triangles::seen(&triangles.record(0), o);
         assert_eq!(edge_planes(&seen, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
         found
     }

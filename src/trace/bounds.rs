@@ -1,7 +1,8 @@
 //! What holds for all rays of a batch: boxes around their origins and directions, and a ball and a cone around those.
 
+use crate::geometry::triangle::TriangleRecord;
 use crate::geometry::{Planes, Primitives, Triangles};
-use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{LaneMask, Lanes, RayBatch, Vec3, three};
 
 /// Bounds of the active rays of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -32,25 +33,26 @@ impl Bounds {
     /// origin, pass the same edge on the outside.
     #[inline(always)]
     pub fn miss_triangle(&self, triangles: &Triangles, i: usize) -> bool {
-        let seen = Triangles::seen(&triangles.record(i), self.origin.middle);
-        let [a, b, c] = seen.corners;
+        let TriangleRecord { corners, n, .. } = triangles.record(i);
+        let [a, b, c] = three(corners, |corner| corner - self.origin.middle);
+        let height = a.dot(n);
         let size = a.max_abs().max(b.max_abs()).max(c.max_abs());
         if !self.shared {
             let reach = triangles.corners(i)[0].abs().max_element();
-            // A hit may lie 3 · 32 ε of the size off the plane: `distance` keeps it in a box.
-            return self.turn_away(seen.n, seen.height, 8.0 * (reach + size) * seen.n.max_abs());
+            // A hit may lie 3 · 32 ε of the size off the plane: `triangle::Flat` keeps it in a box.
+            return self.turn_away(n, height, 8.0 * (reach + size) * n.max_abs());
         }
         // The test's own rounding, in units of the products that it compares: below 3e-6 (see `watertight`).
         const SLACK: f32 = 1e-5;
         // Beyond the slack, all that a ray meets lies on the side that the height says, and the volumes that the ray
         // spans with the edges all have its sign.
-        let s = if seen.height > 0.0 { 1.0 } else { -1.0 };
-        if seen.height.abs() <= SLACK * size * seen.n.max_abs() {
+        let s = if height > 0.0 { 1.0 } else { -1.0 };
+        if height.abs() <= SLACK * size * n.max_abs() {
             return false;
         }
         let outside = |edge: Vec3<f32>, slack: f32| self.direction.greatest(edge * s) < -slack;
         let slack = SLACK * size * size;
-        outside(seen.n, SLACK * seen.n.max_abs())
+        outside(n, SLACK * n.max_abs())
             || outside(a.cross(b), slack)
             || outside(b.cross(c), slack)
             || outside(c.cross(a), slack)
