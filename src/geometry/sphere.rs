@@ -26,6 +26,8 @@ pub struct Spheres {
     pub balls: Balls,
     /// Which side of each is there.
     pub sides: Vec<Sides>,
+    /// The same for all, where it is.
+    side: Option<Sides>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
     /// How all are tested.
@@ -68,8 +70,15 @@ impl Spheres {
     /// Adds a sphere.
     pub fn push(&mut self, center: glam::Vec3, radius: f32, sides: Sides, material: u32) {
         self.balls.push(center, radius);
+        self.side = if self.sides.is_empty() { Some(sides) } else { self.side.filter(|&side| side == sides) };
         self.sides.push(sides);
         self.material.push(material);
+    }
+
+    /// Which side of all is there, where [`one_sided`] with that, or [`stable`], is the test of all.
+    #[inline(always)]
+    pub fn common_side(&self) -> Option<Sides> {
+        self.side.filter(|_| self.method == SphereMethod::Stable)
     }
 
     /// Sphere `i`'s centre.

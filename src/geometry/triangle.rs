@@ -38,6 +38,8 @@ pub struct Triangles {
     pub reach: Vec<f32>,
     /// Which side of each is there.
     pub sides: Vec<Sides>,
+    /// Whether there is any of which only one side is there.
+    pub one_sided: bool,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
     /// Normals at the corners; none where no triangle has any.
@@ -163,6 +165,7 @@ impl Triangles {
     pub fn push(&mut self, corners: [glam::Vec3; 3], sides: Sides, material: u32) {
         self.corners.iter_mut().zip(corners).for_each(|(column, corner)| columns::push(column, corner));
         self.sides.push(sides);
+        self.one_sided |= sides != Sides::Both;
         self.material.push(material);
         // In f64, where no product of lengths overflows or vanishes.
         let [a, b, c] = corners;

@@ -245,23 +245,26 @@ fn fill<L: Lanes>(answers: &mut Answers, scene: &Scene, batches: &[RayBatch], pa
     }
 }
 
-/// Puts all batches through the query `passes` times, in parallel where the pool has more than one thread; a thread
-/// then does all passes over its share, as the threads of a frame work on their own tiles.
+/// Puts all batches through the query `passes` times, in parallel where the pool has more than one thread. All come by
+/// before any comes again: a thread that met the same few over and over would foretell every branch.
 fn each<A: Send>(
     batches: &[RayBatch],
     answers: &mut [A],
     passes: u64,
     query: impl Fn(&[RayBatch], &mut [A], &mut Candidates) + Sync,
 ) {
-    let share = |scratch: &mut Candidates, (batches, answers): (&[RayBatch], &mut [A])| {
-        (0..passes).for_each(|_| query(batches, answers, scratch));
-    };
     match rayon::current_num_threads() {
-        1 => share(&mut Candidates::default(), (batches, answers)),
+        1 => {
+            let mut scratch = Candidates::default();
+            (0..passes).for_each(|_| query(batches, answers, &mut scratch));
+        }
         threads => {
             let size = batches.len().div_ceil(8 * threads).max(1);
-            let shares = batches.par_chunks(size).zip(answers.par_chunks_mut(size));
-            shares.for_each_init(Candidates::default, share);
+            for _ in 0..passes {
+                let shares = batches.par_chunks(size).zip(answers.par_chunks_mut(size));
+                shares
+                    .for_each_init(Candidates::default, |scratch, (batches, answers)| query(batches, answers, scratch));
+            }
         }
     }
 }

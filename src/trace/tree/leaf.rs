@@ -1,9 +1,10 @@
 //! The primitives of a block against the packets of a group.
 
 use crate::bvh::{SphereBlock, TriangleBlock};
-use crate::geometry::methods::TriangleMethod;
+use crate::geometry::methods::{SphereMethod, TriangleMethod};
+use crate::geometry::sphere::{self, SeenSphere};
 use crate::geometry::triangle::{Aim, Flat, covers, covers_ordered, there};
-use crate::geometry::{Primitives, Sides, SphereRecord, Spheres, Triangles};
+use crate::geometry::{Nearest, Primitives, Sides, SphereRecord, Spheres, Triangles};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 use crate::scene::with_primitive;
 use std::ops::Range;
@@ -87,7 +88,7 @@ impl Walk<'_> {
     ) -> bool {
         let direction = Vec3::load(&self.rays.direction, at);
         let (t, mut inside) = flat.distance(direction, inside);
-        if RARE {
+        if RARE && self.scene.triangles.one_sided {
             inside = inside
                 & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], flat.n.dot(direction));
         }
@@ -104,6 +105,7 @@ impl Walk<'_> {
         limit: f32,
         range: Range<usize>,
     ) -> bool {
+        let Some(side) = self.sphere_side::<RARE>() else { return self.odd_spheres::<L, ANY>(block, range) };
         let radius = f32x8::from(block.radius);
         let faces = |axis: usize, near: usize| {
             let center = f32x8::from(block.center[axis]);
@@ -118,20 +120,45 @@ impl Walk<'_> {
             if id == NONE {
                 break;
             }
-            taken |= self.packets::<Spheres, L, ANY, RARE>(&self.sphere::<RARE>(block, lane), range.clone(), id);
+            taken |= self.sphere::<L, ANY, RARE>(&sphere_of(block, lane, side), range.clone(), id);
         }
         taken
     }
 
-    /// A sphere of a block.
+    /// The side of all spheres that is there; `None` where they differ, or have another method than the default.
     #[inline(always)]
-    pub fn sphere<const RARE: bool>(&self, block: &SphereBlock, lane: usize) -> SphereRecord {
-        let sides = match RARE {
-            true => self.scene.spheres.sides[(block.id[lane] - self.scene.first.spheres) as usize],
-            false => Sides::Both,
-        };
-        let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
-        SphereRecord { center, radius: block.radius[lane], sides, method: self.scene.spheres.method }
+    pub fn sphere_side<const RARE: bool>(&self) -> Option<Sides> {
+        if RARE { self.scene.spheres.common_side() } else { Some(Sides::Both) }
+    }
+
+    /// A sphere against the packets of a range, by the default method.
+    #[inline(always)]
+    pub fn sphere<L: Lanes, const ANY: bool, const RARE: bool>(
+        &mut self,
+        record: &SphereRecord,
+        range: Range<usize>,
+        id: u32,
+    ) -> bool {
+        let mut taken = false;
+        for at in range.step_by(L::WIDTH) {
+            let seen = Spheres::seen::<L>(record, self.rays.origins(at));
+            let direction = Vec3::load(&self.rays.direction, at);
+            if let Some((t, inside)) = default_sphere::<L, RARE>(&seen, direction, L::load(&self.rays.t_min[at..])) {
+                taken |= self.state.take::<L, ANY>(at, t, inside, id);
+            }
+        }
+        taken
+    }
+
+    /// The spheres of a block where not all are of one side and the default's method.
+    #[inline(never)]
+    pub fn odd_spheres<L: Lanes, const ANY: bool>(&mut self, block: &SphereBlock, range: Range<usize>) -> bool {
+        let mut taken = false;
+        for id in block.id.into_iter().take_while(|&id| id != NONE) {
+            let record = self.scene.spheres.record((id - self.scene.first.spheres) as usize);
+            taken |= self.packets::<Spheres, L, ANY, true>(&record, range.clone(), id);
+        }
+        taken
     }
 
     /// Primitive `id` against the packets of a range.
@@ -195,6 +222,20 @@ impl Walk<'_> {
         }
         taken
     }
+}
+
+/// A sphere of a block by the default's method.
+#[inline(always)]
+pub fn sphere_of(block: &SphereBlock, lane: usize, sides: Sides) -> SphereRecord {
+    let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
+    SphereRecord { center, radius: block.radius[lane], sides, method: SphereMethod::Stable }
+}
+
+/// As far as the ray goes: what was found may be as near with a higher id.
+#[inline(always)]
+pub fn default_sphere<L: Lanes, const RARE: bool>(seen: &SeenSphere<L>, d: Vec3<L>, t_min: L) -> Nearest<L> {
+    let far = L::splat(f32::INFINITY);
+    if RARE { sphere::one_sided(seen, d, t_min, far) } else { sphere::stable(seen, d, t_min, far) }
 }
 
 /// The near end first.

@@ -4,13 +4,13 @@
 //! 2012, §3.)
 
 use crate::bvh::{Child, Kind, MOST_DEPTH, Node};
-use crate::geometry::Spheres;
 use crate::geometry::methods::TriangleMethod;
 use crate::geometry::triangle::{Aim, Flat, covers};
 use crate::math::{BATCH, LaneMask, Lanes, NONE, Vec3, three};
 use wide::f32x16;
 
 use super::Walk;
+use super::leaf::sphere_of;
 use super::line::Lines;
 
 /// Rays of a packet.
@@ -198,8 +198,12 @@ impl Walk<'_> {
     #[inline(always)]
     fn sixteen_spheres<const ANY: bool, const RARE: bool>(&mut self, at: usize, block: usize) {
         let block = &self.bvh.spheres[block];
+        let Some(side) = self.sphere_side::<RARE>() else {
+            self.odd_spheres::<f32x16, ANY>(block, at..at + RAYS);
+            return;
+        };
         for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
-            self.packets::<Spheres, f32x16, ANY, RARE>(&self.sphere::<RARE>(block, lane), at..at + RAYS, id);
+            self.sphere::<f32x16, ANY, RARE>(&sphere_of(block, lane, side), at..at + RAYS, id);
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use crate::bvh::{Child, Kind, SphereBlock, TriangleBlock};
 use crate::geometry::methods::{SphereMethod, TriangleMethod};
-use crate::geometry::triangle::{Aim, Flat, covers_ordered, normal};
-use crate::geometry::{Primitives, Sides, Spheres, sphere};
-use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
+use crate::geometry::sphere::{self, SeenSphere};
+use crate::geometry::triangle::{Aim, Flat, covers_ordered, normal, there};
+use crate::math::{LaneMask, Lanes, Vec3, three};
 use wide::f32x8;
 
 use super::Walk;
+use super::leaf::default_sphere;
 use super::line::Line;
 
 /// Ray `i` of the batch in every lane.
@@ -105,29 +106,40 @@ impl Walk<'_> {
         let axis = |k: usize, i: usize| f32x8::from(block.corners[k][(ray.major + 1 + i) % 3]) - from[i];
         let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
         let Some(inside) = covers_ordered(&seen, ray.shear) else { return false };
-        if RARE {
-            return self.each_triangle::<ANY>(ray.i, block, inside.bits());
-        }
         let corners = three([0, 1, 2], |k| Vec3::load(&block.corners[k], 0));
         let seen = three(corners, |c| c - ray.origin);
         let n = normal(corners);
         let [a, b, c] = seen;
         let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
         let (t, inside) = flat.distance(ray.direction, inside);
-        self.take_eight::<ANY>(ray.i, t, inside & Lanes::gt(t, ray.t_min), &block.id)
+        let mut inside = inside & Lanes::gt(t, ray.t_min);
+        if RARE && self.scene.triangles.one_sided && inside.any() {
+            inside = inside & self.there(block, inside.bits(), n.dot(ray.direction));
+        }
+        self.take_eight::<ANY>(ray.i, t, inside, &block.id)
+    }
+
+    /// Which of the triangles whose bits are set are there for a ray that runs `along` their normals.
+    #[inline(never)]
+    fn there(&self, block: &TriangleBlock, bits: u32, along: f32x8) -> f32x8 {
+        let sides = |lane: usize| self.scene.triangles.sides[(block.id[lane] - self.scene.first.triangles) as usize];
+        let along = along.to_array();
+        let there = (0..8).filter(|&lane| bits & (1 << lane) != 0 && there(sides(lane), along[lane]));
+        LaneMask::from_bits(there.fold(0, |bits, lane| bits | (1 << lane)))
     }
 
     #[inline(always)]
     fn eight_spheres<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, block: &SphereBlock) -> bool {
         let (center, radius) = (Vec3::load(&block.center, 0), f32x8::from(block.radius));
-        let seen = sphere::SeenSphere::new(center, radius, Sides::Both, SphereMethod::Stable, ray.origin);
-        if RARE {
+        let side = self.sphere_side::<RARE>();
+        let seen = SeenSphere::new(center, radius, side.unwrap_or_default(), SphereMethod::Stable, ray.origin);
+        if side.is_none() {
             let named = self.scene.spheres.method != SphereMethod::Stable;
-            return (named || sphere::passes(&seen, ray.direction)) && self.each_sphere::<ANY>(ray.i, block);
+            return (named || sphere::passes(&seen, ray.direction))
+                && self.odd_spheres::<f32, ANY>(block, ray.i..ray.i + 1);
         }
-        let far = f32x8::splat(f32::INFINITY);
-        let Some((t, inside)) = sphere::stable(&seen, ray.direction, ray.t_min, far) else { return false };
-        self.take_eight::<ANY>(ray.i, t, inside, &block.id)
+        let found = default_sphere::<f32x8, RARE>(&seen, ray.direction, ray.t_min);
+        found.is_some_and(|(t, inside)| self.take_eight::<ANY>(ray.i, t, inside, &block.id))
     }
 
     /// Takes ray `i`'s hits of a block, where `inside` is true.
@@ -140,33 +152,6 @@ impl Walk<'_> {
             let lane = bits.trailing_zeros() as usize & 7;
             bits &= bits - 1;
             taken |= self.state.take::<f32, ANY>(i, t[lane], true, ids[lane]);
-        }
-        taken
-    }
-
-    /// The triangles of a block whose bits are set, each with its own sides.
-    #[inline(never)]
-    fn each_triangle<const ANY: bool>(&mut self, i: usize, block: &TriangleBlock, mut bits: u32) -> bool {
-        let mut taken = false;
-        while bits != 0 {
-            let lane = bits.trailing_zeros() as usize & 7;
-            bits &= bits - 1;
-            if block.id[lane] != NONE {
-                let flat = Flat::of(three(block.triangle(lane), Vec3::from), self.rays.origins(i));
-                taken |= self.triangle::<f32, ANY, true>(i, &flat, true, block.id[lane]);
-            }
-        }
-        taken
-    }
-
-    /// The spheres of a block, each with its own sides.
-    #[inline(never)]
-    fn each_sphere<const ANY: bool>(&mut self, i: usize, block: &SphereBlock) -> bool {
-        let spheres = &self.scene.spheres;
-        let mut taken = false;
-        for id in block.id.into_iter().take_while(|&id| id != NONE) {
-            let record = spheres.record((id - self.scene.first.spheres) as usize);
-            taken |= self.packets::<Spheres, f32, ANY, true>(&record, i..i + 1, id);
         }
         taken
     }
