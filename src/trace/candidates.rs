@@ -64,6 +64,8 @@ pub struct Lists<F: Form> {
     pub cones: List<F, Cones>,
     pub tori: List<F, Tori>,
     pub fractals: List<F, Fractals>,
+    /// Whether there are any after the triangles.
+    pub more: bool,
 }
 
 impl<F: Form> Default for Lists<F> {
@@ -78,6 +80,7 @@ impl<F: Form> Default for Lists<F> {
             cones: Vec::new(),
             tori: Vec::new(),
             fractals: Vec::new(),
+            more: false,
         }
     }
 }
@@ -144,13 +147,12 @@ impl<F: Form> Lists<F> {
         let triangles = (0..scene.triangles.len()).filter(|&i| !bounds.miss_triangle(&scene.triangles, i));
         let first = scene.first.triangles;
         self.triangles.extend(triangles.map(|i| (F::record(&scene.triangles, i, origin), first + i as u32)));
-        if scene.plan.rare {
-            self.fill_rare::<L>(scene, bounds);
-        }
+        self.more = scene.plan.rare && self.fill_rare::<L>(scene, bounds);
     }
 
+    /// Whether there are any.
     #[inline(never)]
-    fn fill_rare<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) {
+    fn fill_rare<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> bool {
         self.quads.clear();
         bounded::<F, _, L>(&mut self.quads, &scene.quads, scene.first.quads, bounds);
         self.cuboids.clear();
@@ -163,6 +165,8 @@ impl<F: Form> Lists<F> {
         bounded::<F, _, L>(&mut self.tori, &scene.tori, scene.first.tori, bounds);
         self.fractals.clear();
         bounded::<F, _, L>(&mut self.fractals, &scene.fractals, scene.first.fractals, bounds);
+        let sizes = [self.quads.len(), self.cuboids.len(), self.cylinders.len(), self.cones.len(), self.tori.len()];
+        sizes.iter().any(|&len| len > 0) || !self.fractals.is_empty()
     }
 }
 

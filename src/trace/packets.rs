@@ -53,7 +53,7 @@ impl<'a, F: Form> Found<'a, F> {
         if MESH {
             each::<F, Triangles, L, Q, RARE>(self.triangles, &packet, query);
         }
-        if RARE && !query.done() {
+        if RARE && self.lists.more && !query.done() {
             self.lists.visit_rare(scene, &packet, query);
         }
     }
