@@ -127,7 +127,7 @@ fn meets_itself(scene: &Scene, shape: &Shape, spawned: &Spawned, t: f32) -> bool
 /// Whether a ray into a body ends at its far side, and one to the other side of something flat at nothing.
 ///
 /// Within rounding of an edge the point may be beside the face around the corner, and the ray starts out there: it enters
-/// by that face before it has gone a lift. It leaks when the truth has it enter and the tracer does not.
+/// by that face, which is nearer than a lift. It leaks when the truth has it enter and the tracer does not.
 fn goes_through(scene: &Scene, shape: &Shape, spawned: &Spawned, found: Option<f32>) -> bool {
     if is_flat(shape) {
         return found.is_none();
@@ -138,8 +138,8 @@ fn goes_through(scene: &Scene, shape: &Shape, spawned: &Spawned, found: Option<f
     let truth = || nearest(shape, &oracle::Ray::new(ray.origin, ray.direction), 0.0, f64::INFINITY);
     let ends = |truth: Truth| {
         let off = (truth.t - f64::from(t)).abs();
-        let lift = f64::from(spawned.lift);
-        off < lift && (truth.normal.dot(ray.direction.as_dvec3()) > 0.0 || truth.t < lift)
+        let (lift, cosine) = (f64::from(spawned.lift), truth.normal.dot(ray.direction.as_dvec3()));
+        off < lift && (cosine > 0.0 || -cosine * truth.t < lift)
     };
     normal.dot(ray.direction) > 0.0 || truth().is_some_and(ends)
 }
