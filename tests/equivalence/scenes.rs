@@ -86,8 +86,10 @@ pub fn scene(kind: Kind, place: Place, rng: &mut Pcg) -> Description {
         scene.cuboids.clear();
         scene.tori.clear();
         scene.fractals.clear();
+        // Trees test spheres together when all have the same side.
+        let common = rng.pick(&[None, Some(Sides::Front), Some(Sides::Back)]);
         let mut sides = || rng.pick(&[Sides::Both, Sides::Front, Sides::Back]);
-        scene.spheres.iter_mut().for_each(|s| s.sides = sides());
+        scene.spheres.iter_mut().for_each(|s| s.sides = common.unwrap_or_else(&mut sides));
         scene.cylinders.iter_mut().for_each(|c| c.sides = sides());
         scene.cones.iter_mut().for_each(|c| c.sides = sides());
         scene.meshes.extend(scene.meshes.clone());
