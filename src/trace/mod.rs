@@ -144,8 +144,7 @@ fn any_of<L: Lanes, const RARE: bool, const MESH: bool>(
 
 /// [`intersect()`] for rays whose bounds may be known; they are only asked for where they are needed. `RARE` must be
 /// true where the plan is rare, `MESH` where that is or there are triangles; both may be true without need. `take`
-/// gets every packet's answer while it is in registers. `ahead` is what
-/// is traced after this batch.
+/// gets every packet's answer while it is in registers; `ahead` is what comes after this batch.
 #[inline(always)]
 pub(crate) fn nearest_hits<L: Lanes, const RARE: bool, const MESH: bool>(
     scene: &Scene,
