@@ -5,7 +5,7 @@ use super::{Bvh, Child, Kind, Node};
 use prefetch_index::prefetch_index;
 
 impl Bvh {
-    /// The children of a node whose bits are set.
+    /// The children of a node whose bits are set, at least one.
     #[inline(always)]
     pub(crate) fn fetch(&self, node: &Node, mut met: u32) {
         // One alone is next.

@@ -375,15 +375,6 @@ impl<L: Lanes> Flat<L> {
     }
 }
 
-impl Flat<f32> {
-    /// The same in every lane.
-    #[inline(always)]
-    pub fn splat<L: Lanes>(&self) -> Flat<L> {
-        let [n, low, high] = three([self.n, self.low, self.high], |v| Vec3::splat(v.into()));
-        Flat { n, height: L::splat(self.height), low, high }
-    }
-}
-
 /// `t`, or where the ray enters or leaves the box if that is nearer, and where it meets the box.
 #[inline(never)]
 fn within<L: Lanes>(low: Vec3<L>, high: Vec3<L>, direction: Vec3<L>, t: L) -> (L, L::Mask) {

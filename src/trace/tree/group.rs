@@ -8,7 +8,7 @@ use wide::f32x8;
 use super::Walk;
 use super::beam::Beam;
 
-/// Of the next batch, by the way, at every step of the descent.
+/// Cache lines of the next batch that are fetched at every step of the descent and for every triangle.
 pub const LINES: usize = 8;
 
 impl Walk<'_> {

@@ -1,10 +1,10 @@
 //! The primitives of a block against the packets of a group.
 
-use crate::bvh::{SphereBlock, TriangleBlock};
+use crate::bvh::{BLOCK, SphereBlock, TriangleBlock};
 use crate::geometry::methods::{SphereMethod, TriangleMethod};
 use crate::geometry::sphere::{self, SeenSphere};
 use crate::geometry::triangle::{Aim, Flat, covers, covers_ordered, there};
-use crate::geometry::{Nearest, Primitives, Sides, SphereRecord, Spheres, Triangles};
+use crate::geometry::{Nearest, Primitives, Sides, SphereRecord, Spheres};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 use crate::scene::with_primitive;
 use std::ops::Range;
@@ -26,7 +26,7 @@ impl Walk<'_> {
         range: Range<usize>,
     ) -> bool {
         if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
-            return self.named_triangles::<L, ANY>(block, range);
+            return self.triangles_one_by_one::<L, ANY>(block, range);
         }
         let faces = |axis: usize, near: usize| {
             let [a, b, c] = three([0, 1, 2], |k| f32x8::from(block.corners[k][axis]));
@@ -68,11 +68,32 @@ impl Walk<'_> {
 
     /// The triangles of a block by another method than the default.
     #[inline(never)]
-    pub fn named_triangles<L: Lanes, const ANY: bool>(&mut self, block: &TriangleBlock, range: Range<usize>) -> bool {
+    pub fn triangles_one_by_one<L: Lanes, const ANY: bool>(
+        &mut self,
+        block: &TriangleBlock,
+        range: Range<usize>,
+    ) -> bool {
+        self.one_by_one::<_, L, ANY>(&self.scene.triangles, self.scene.first.triangles, &block.id, range)
+    }
+
+    /// The spheres of a block where they differ in their sides, or have another method than the default.
+    #[inline(never)]
+    pub fn spheres_one_by_one<L: Lanes, const ANY: bool>(&mut self, block: &SphereBlock, range: Range<usize>) -> bool {
+        self.one_by_one::<_, L, ANY>(&self.scene.spheres, self.scene.first.spheres, &block.id, range)
+    }
+
+    #[inline(always)]
+    fn one_by_one<K: Primitives, L: Lanes, const ANY: bool>(
+        &mut self,
+        kind: &K,
+        first: u32,
+        ids: &[u32; BLOCK],
+        range: Range<usize>,
+    ) -> bool {
         let mut taken = false;
-        for id in block.id.into_iter().take_while(|&id| id != NONE) {
-            let record = self.scene.triangles.record((id - self.scene.first.triangles) as usize);
-            taken |= self.packets::<Triangles, L, ANY, true>(&record, range.clone(), id);
+        for &id in ids.iter().take_while(|&&id| id != NONE) {
+            let record = kind.record((id - first) as usize);
+            taken |= self.packets::<K, L, ANY>(&record, range.clone(), id, K::nearest::<L, true>);
         }
         taken
     }
@@ -105,7 +126,9 @@ impl Walk<'_> {
         limit: f32,
         range: Range<usize>,
     ) -> bool {
-        let Some(side) = self.sphere_side::<RARE>() else { return self.odd_spheres::<L, ANY>(block, range) };
+        let Some(side) = self.sphere_side::<RARE>() else {
+            return self.spheres_one_by_one::<L, ANY>(block, range);
+        };
         let radius = f32x8::from(block.radius);
         let faces = |axis: usize, near: usize| {
             let center = f32x8::from(block.center[axis]);
@@ -139,35 +162,19 @@ impl Walk<'_> {
         range: Range<usize>,
         id: u32,
     ) -> bool {
-        let mut taken = false;
-        for at in range.step_by(L::WIDTH) {
-            let seen = Spheres::seen::<L>(record, self.rays.origins(at));
-            let direction = Vec3::load(&self.rays.direction, at);
-            if let Some((t, inside)) = default_sphere::<L, RARE>(&seen, direction, L::load(&self.rays.t_min[at..])) {
-                taken |= self.state.take::<L, ANY>(at, t, inside, id);
-            }
-        }
-        taken
-    }
-
-    /// The spheres of a block where not all are of one side and the default's method.
-    #[inline(never)]
-    pub fn odd_spheres<L: Lanes, const ANY: bool>(&mut self, block: &SphereBlock, range: Range<usize>) -> bool {
-        let mut taken = false;
-        for id in block.id.into_iter().take_while(|&id| id != NONE) {
-            let record = self.scene.spheres.record((id - self.scene.first.spheres) as usize);
-            taken |= self.packets::<Spheres, L, ANY, true>(&record, range.clone(), id);
-        }
-        taken
+        self.packets::<Spheres, L, ANY>(record, range, id, |seen, &d, t_min, t_max| {
+            default_sphere::<L, RARE>(seen, d, t_min, t_max)
+        })
     }
 
     /// Primitive `id` against the packets of a range.
     #[inline(always)]
-    pub fn packets<K: Primitives, L: Lanes, const ANY: bool, const RARE: bool>(
+    fn packets<K: Primitives, L: Lanes, const ANY: bool>(
         &mut self,
         record: &K::Record,
         range: Range<usize>,
         id: u32,
+        test: impl Fn(&K::Seen<L>, &K::Aim<L>, L, L) -> Nearest<L>,
     ) -> bool {
         let mut taken = false;
         for at in range.step_by(L::WIDTH) {
@@ -175,7 +182,7 @@ impl Walk<'_> {
             let aim = K::aim(Vec3::load(&self.rays.direction, at));
             let t_min = L::load(&self.rays.t_min[at..]);
             // As far as the ray goes: what was found may be as near with a higher id.
-            if let Some((t, inside)) = K::nearest::<L, RARE>(&seen, &aim, t_min, L::splat(f32::INFINITY)) {
+            if let Some((t, inside)) = test(&seen, &aim, t_min, L::splat(f32::INFINITY)) {
                 taken |= self.state.take::<L, ANY>(at, t, inside, id);
             }
         }
@@ -231,11 +238,10 @@ pub fn sphere_of(block: &SphereBlock, lane: usize, sides: Sides) -> SphereRecord
     SphereRecord { center, radius: block.radius[lane], sides, method: SphereMethod::Stable }
 }
 
-/// As far as the ray goes: what was found may be as near with a higher id.
+/// The default's test, of a sphere of any side where `RARE`.
 #[inline(always)]
-pub fn default_sphere<L: Lanes, const RARE: bool>(seen: &SeenSphere<L>, d: Vec3<L>, t_min: L) -> Nearest<L> {
-    let far = L::splat(f32::INFINITY);
-    if RARE { sphere::one_sided(seen, d, t_min, far) } else { sphere::stable(seen, d, t_min, far) }
+pub fn default_sphere<L: Lanes, const RARE: bool>(seen: &SeenSphere<L>, d: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    if RARE { sphere::one_sided(seen, d, t_min, t_max) } else { sphere::stable(seen, d, t_min, t_max) }
 }
 
 /// The near end first.

@@ -15,7 +15,7 @@ use super::line::Lines;
 
 /// Rays of a packet.
 pub const RAYS: usize = 16;
-/// Of the next batch, by the way, at every step of the descent.
+/// Cache lines of the next batch that are fetched at every step of the descent.
 const LINES: usize = 2;
 /// As many go on one by one.
 const FEW: u32 = 5;
@@ -180,7 +180,7 @@ impl Walk<'_> {
     fn sixteen_triangles<const ANY: bool, const RARE: bool>(&mut self, at: usize, block: usize) {
         let block = &self.bvh.triangles[block];
         if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
-            self.named_triangles::<f32x16, ANY>(block, at..at + RAYS);
+            self.triangles_one_by_one::<f32x16, ANY>(block, at..at + RAYS);
             return;
         }
         let aim = Aim::new(Vec3::<f32x16>::load(&self.rays.direction, at));
@@ -199,7 +199,7 @@ impl Walk<'_> {
     fn sixteen_spheres<const ANY: bool, const RARE: bool>(&mut self, at: usize, block: usize) {
         let block = &self.bvh.spheres[block];
         let Some(side) = self.sphere_side::<RARE>() else {
-            self.odd_spheres::<f32x16, ANY>(block, at..at + RAYS);
+            self.spheres_one_by_one::<f32x16, ANY>(block, at..at + RAYS);
             return;
         };
         for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {

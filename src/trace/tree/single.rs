@@ -100,7 +100,7 @@ impl Walk<'_> {
     #[inline(always)]
     fn eight_triangles<const ANY: bool, const RARE: bool>(&mut self, ray: &Ray, block: &TriangleBlock) -> bool {
         if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
-            return self.named_triangles::<f32, ANY>(block, ray.i..ray.i + 1);
+            return self.triangles_one_by_one::<f32, ANY>(block, ray.i..ray.i + 1);
         }
         let from = ray.origin.ordered(ray.major);
         let axis = |k: usize, i: usize| f32x8::from(block.corners[k][(ray.major + 1 + i) % 3]) - from[i];
@@ -136,9 +136,9 @@ impl Walk<'_> {
         if side.is_none() {
             let named = self.scene.spheres.method != SphereMethod::Stable;
             return (named || sphere::passes(&seen, ray.direction))
-                && self.odd_spheres::<f32, ANY>(block, ray.i..ray.i + 1);
+                && self.spheres_one_by_one::<f32, ANY>(block, ray.i..ray.i + 1);
         }
-        let found = default_sphere::<f32x8, RARE>(&seen, ray.direction, ray.t_min);
+        let found = default_sphere::<f32x8, RARE>(&seen, ray.direction, ray.t_min, f32x8::splat(f32::INFINITY));
         found.is_some_and(|(t, inside)| self.take_eight::<ANY>(ray.i, t, inside, &block.id))
     }
 

@@ -56,6 +56,7 @@ impl State {
             }
         }
         for at in (0..rays.len).step_by(L::WIDTH) {
+            // NaN is not equal to itself.
             let t_min = L::load(&rays.t_min[at..]);
             L::load(&self.t[at..]).select(t_min.eq(t_min), L::splat(f32::NAN)).store(&mut self.t[at..]);
         }
