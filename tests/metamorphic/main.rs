@@ -5,11 +5,13 @@
 //! |---|---|---|
 //! | moved, by what is exact | the scene at its place | [the bound](raypacket::measure::verify#the-error-bound) of the farther |
 //! | turned by right angles, or by any | the scene as it was | the bound |
+//! | mirrored | the scene as it was | the bound |
+//! | in another order | the scene as it was | distances to the bit |
 //! | larger by any factor | the scene as it was | the bound |
 //! | a way, back | the way there | unless ways within the bound disagree |
 //! | beside any other rays, even broken ones | the ray alone | to the bit |
 //!
-//! `robustness/symmetry` has what is exact: mirrors, powers of two, another order. `equivalence` has lengths of
+//! `robustness/symmetry` has what is exact for planes and spheres: mirrors, powers of two, another order. `equivalence` has lengths of
 //! batches, and both queries against testing every primitive.
 
 #[path = "../common/mod.rs"]
@@ -19,7 +21,7 @@ mod ends;
 mod map;
 mod scenes;
 
-use glam::{EulerRot, Vec3};
+use glam::{DMat3, DVec3, EulerRot, Vec3};
 use map::Map;
 use proptest::{prelude::*, test_runner::RngSeed};
 use raypacket::{
@@ -107,12 +109,36 @@ proptest! {
         expect_same(&scene(&items), &Map { turn: map::right_angles(turns), ..Map::default() })?;
     }
 
+    /// At a plane of two axes, after right angles.
+    #[test]
+    fn mirrored(items in scenes::items(), axis in 0..3_usize, turns in [0..4u8, 0..4u8, 0..4u8]) {
+        let mut mirror = DVec3::ONE;
+        mirror[axis] = -1.0;
+        let turn = DMat3::from_diagonal(mirror) * map::right_angles(turns);
+        expect_same(&scene(&items), &Map { turn, ..Map::default() })?;
+    }
+
+    /// Which of two is hit at equal distance may differ, how far away it is may not.
+    #[test]
+    fn in_another_order(
+        (items, others) in scenes::items().prop_flat_map(|items| (Just(items.clone()), Just(items).prop_shuffle())),
+    ) {
+        let camera = camera(&scene(&items));
+        for kernel in Kernel::ALL {
+            let distances = |items: &[Item]| {
+                let hits = Picture::new(&scene(items), &camera, kernel).hits;
+                hits.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>()
+            };
+            prop_assert!(distances(&items) == distances(&others), "{kernel:?}");
+        }
+    }
+
     /// By any angles. The image's coordinates are rounded, which is one more of the roundings that the bound counts.
     #[test]
     fn turned(mut items in scenes::items(), angles in [-3.2..3.2, -1.5..1.5, -3.2..3.2_f64]) {
         items.retain(Item::turns);
         let [z, y, x] = angles;
-        let turn = glam::DMat3::from_euler(EulerRot::ZYX, z, y, x);
+        let turn = DMat3::from_euler(EulerRot::ZYX, z, y, x);
         expect_same(&scene(&items), &Map { turn, ..Map::default() })?;
     }
 

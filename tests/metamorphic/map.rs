@@ -1,4 +1,4 @@
-//! Scenes elsewhere: scaled, then turned, then moved.
+//! Scenes elsewhere: scaled, then turned or mirrored, then moved.
 
 use glam::{DMat3, DVec3, EulerRot, Vec3};
 use raypacket::render::Camera;
@@ -7,6 +7,7 @@ use raypacket::scene::{Cuboid, Description};
 /// What happens to points. Computed in `f64` and rounded once.
 pub struct Map {
     pub scale: f64,
+    /// Of axes at right angles and of length 1.
     pub turn: DMat3,
     pub by: DVec3,
 }
@@ -87,7 +88,9 @@ impl Map {
 
     fn cuboid(&self, c: &Cuboid) -> Cuboid {
         let [x, y, z] = c.rotation.as_dvec3().to_array().map(f64::to_radians);
-        let turn = self.turn * DMat3::from_euler(EulerRot::ZYX, z, y, x);
+        // A box is its own mirror image: where the turn mirrors, an axis the other way round makes it a turn again.
+        let mirror = DMat3::from_diagonal(DVec3::new(self.turn.determinant().signum(), 1.0, 1.0));
+        let turn = self.turn * DMat3::from_euler(EulerRot::ZYX, z, y, x) * mirror;
         let [min, max] = [c.min, c.max].map(|p| p.as_dvec3() * self.scale);
         let (middle, half) = (self.turn * ((min + max) / 2.0) + self.by, (max - min) / 2.0);
         if turn.to_cols_array().iter().all(|x| x.fract() == 0.0) {
