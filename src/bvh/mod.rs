@@ -6,6 +6,11 @@
 //!    cost.
 //! 4. `layout`: [`Node`]s and blocks side by side, for eight lanes.
 //!
+//! Built here rather than by a crate: `obvhs` 0.4 takes 0.46, 1.63 and 693 ms on one thread for the trees of 1,282, 3,676
+//! and 1,036,800 triangles that this builds in 0.32, 1.12 and 389 ms, and its own single-ray traversal of them gives 8.7, 8.7
+//! and 1.6 million diffuse rays a second where ours gives 21.5, 19.4 and 3.2 (Zen 4, its best presets for a build's time
+//! and medium ones for rays).
+//!
 //! The tree is the same for every number of threads. No input is too bad for it: depth is bounded by [`MOST_DEPTH`],
 //! memory while building by 140 bytes a primitive beside the finished tree.
 
