@@ -53,6 +53,7 @@
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
 //! - [`reference`](mod@reference): the scalar tracer that the others are checked against
 //! - [`files`]: writing files whole or not at all
+//! - `kinds`: the list of the kinds of primitive, from which all that is done kind by kind is made
 //!
 //! # The rules
 //!
@@ -79,6 +80,7 @@
 pub mod bvh;
 pub mod files;
 pub mod geometry;
+mod kinds;
 pub mod math;
 pub mod measure;
 pub mod reference;
