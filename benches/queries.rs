@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use raypacket::math::{BATCH, Blocked, HitBatch, Lanes, NONE, RayBatch};
 use raypacket::render::{Camera, TILE};
 use raypacket::scene::{Description, Scene, builtins, compile, load};
-use raypacket::trace::{Candidates, intersect, occluded};
+use raypacket::trace::{Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 const SIZE: [usize; 2] = [256, 128];
@@ -34,7 +34,7 @@ fn eye_rays(description: &Description) -> Vec<RayBatch> {
 
 /// What both queries say about all rays, to the bit.
 fn answers<L: Lanes>(scene: &Scene, batches: &[RayBatch]) -> Vec<(Vec<u32>, Vec<u32>)> {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let answer = |rays: &RayBatch| {
         let (mut hits, mut blocked) = (HitBatch::default(), Blocked::default());
         intersect::<L>(scene, rays, &mut hits, &mut scratch);
@@ -50,7 +50,7 @@ fn answers<L: Lanes>(scene: &Scene, batches: &[RayBatch]) -> Vec<(Vec<u32>, Vec<
 fn width<L: Lanes>(criterion: &mut Criterion, name: &str, scene: &Scene, batches: &[RayBatch]) {
     assert!(answers::<L>(scene, batches) == answers::<f32>(scene, batches), "{name}: {} answers as x1", L::NAME);
     let rays = (batches.len() * BATCH) as u64;
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let (mut hits, mut blocked) = (HitBatch::default(), Blocked::default());
     let mut group = criterion.benchmark_group(format!("queries/{name}"));
     common::per_ray(&mut group, BenchmarkId::new("intersect", L::NAME), rays, || {

@@ -3,7 +3,7 @@
 use raypacket::math::Lanes;
 use raypacket::measure::cases::{ALL, Case, Generator, Ray, Subject, find};
 use raypacket::scene::{Description, Scene, Structure, compile_as};
-use raypacket::trace::{BATCH, Blocked, Candidates, Hit, HitBatch, NONE, RayBatch, intersect, intersect_one, occluded};
+use raypacket::trace::{BATCH, Blocked, Hit, HitBatch, NONE, RayBatch, Scratch, intersect, intersect_one, occluded};
 use wide::{f32x4, f32x8};
 
 /// Rays a setting: more than a batch, and no multiple of a packet.
@@ -14,7 +14,7 @@ const SETTINGS: usize = 9;
 
 /// One way to the answers, which all have to agree: t to the bit, and the primitive.
 fn traced<L: Lanes>(scene: &Scene, rays: &[Ray], name: &str) -> Vec<(u32, u32)> {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let mut answers = Vec::new();
     for rays in rays.chunks(BATCH) {
         let mut batch = RayBatch::default();

@@ -8,7 +8,7 @@ use raypacket::geometry::methods::{Choice, NormalizeMethod, OffsetMethod, Sphere
 use raypacket::math::Lanes;
 use raypacket::render::{Camera, Film, Kernel, render};
 use raypacket::scene::{Description, Material, Mesh, Quad, Scene, Sides, Sphere, Structure, Torus, compile_with, load};
-use raypacket::trace::{BATCH, Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded};
+use raypacket::trace::{BATCH, Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use common::{Pcg, light};
@@ -69,7 +69,7 @@ fn rays() -> Vec<RayBatch> {
 
 /// The bits of the distances, and the primitives; a ray is blocked exactly where it hits.
 fn answers<L: Lanes>(scene: &Scene, what: &str) -> Vec<(u32, u32)> {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let mut all = Vec::new();
     for batch in rays() {
         let (mut hits, mut blocked) = (HitBatch::default(), Blocked::default());

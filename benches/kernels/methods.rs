@@ -7,7 +7,7 @@ use criterion::{BenchmarkId, Criterion};
 use glam::Vec3;
 use raypacket::geometry::sphere::{self, SeenSphere};
 use raypacket::geometry::triangle::{self, SeenEdges};
-use raypacket::geometry::{Nearest, Primitives, Spheres};
+use raypacket::geometry::{LaneHits, Primitives, Spheres};
 use raypacket::math::{BATCH, Lanes, RayBatch, Vec3 as Lane3};
 use raypacket::scene::Scene;
 use wide::{f32x4, f32x8};
@@ -26,7 +26,7 @@ trait Method {
     type Aim<L: Lanes>;
     fn seen(scene: &Scene, i: usize, origin: Vec3) -> Self::Seen;
     fn aim<L: Lanes>(direction: Lane3<L>) -> Self::Aim<L>;
-    fn test<L: Lanes>(seen: &Self::Seen, aim: &Self::Aim<L>, t_min: L, t_max: L) -> Nearest<L>;
+    fn test<L: Lanes>(seen: &Self::Seen, aim: &Self::Aim<L>, t_min: L, t_max: L) -> LaneHits<L>;
 }
 
 /// The default one.
@@ -35,18 +35,20 @@ struct Standard<K>(PhantomData<K>);
 impl<K: Kind> Method for Standard<K> {
     const NAME: &'static str = K::METHOD;
     type Kind = K;
-    type Seen = <K::Stored as Primitives>::Seen<f32>;
+    type Seen = (<K::Stored as Primitives>::Seen<f32>, <K::Stored as Primitives>::Variant);
     type Aim<L: Lanes> = <K::Stored as Primitives>::Aim<L>;
     fn seen(scene: &Scene, i: usize, origin: Vec3) -> Self::Seen {
-        K::Stored::seen(&K::stored(scene).record(i), origin.into())
+        let kind = K::stored(scene);
+        let variant = kind.variant(i);
+        (K::Stored::seen(&kind.shape(i), variant, origin.into()), variant)
     }
     #[inline(always)]
     fn aim<L: Lanes>(direction: Lane3<L>) -> Self::Aim<L> {
         K::Stored::aim(direction)
     }
     #[inline(always)]
-    fn test<L: Lanes>(seen: &Self::Seen, aim: &Self::Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-        K::Stored::nearest::<L, false>(&K::Stored::splat(seen), aim, t_min, t_max)
+    fn test<L: Lanes>(seen: &Self::Seen, aim: &Self::Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        K::Stored::nearest::<L>(&K::Stored::splat_seen(&seen.0), seen.1, aim, t_min, t_max)
     }
 }
 
@@ -60,15 +62,15 @@ macro_rules! sphere_method {
             type Seen = SeenSphere<f32>;
             type Aim<L: Lanes> = Lane3<L>;
             fn seen(scene: &Scene, i: usize, origin: Vec3) -> Self::Seen {
-                Spheres::seen(&scene.spheres.record(i), origin.into())
+                SeenSphere::new(&scene.spheres.shape(i), origin.into())
             }
             #[inline(always)]
             fn aim<L: Lanes>(direction: Lane3<L>) -> Lane3<L> {
                 direction
             }
             #[inline(always)]
-            fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
-                sphere::$method(&Spheres::splat(seen), *aim, t_min, t_max)
+            fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+                sphere::$method(&Spheres::splat_seen(seen), *aim, t_min, t_max)
             }
         }
     };
@@ -84,15 +86,15 @@ impl Method for MollerTrumbore {
     type Seen = SeenEdges<f32>;
     type Aim<L: Lanes> = Lane3<L>;
     fn seen(scene: &Scene, i: usize, origin: Vec3) -> Self::Seen {
-        SeenEdges::new(&scene.triangles.record(i), origin.into())
+        SeenEdges::new(&scene.triangles.shape(i), origin.into())
     }
     #[inline(always)]
     fn aim<L: Lanes>(direction: Lane3<L>) -> Lane3<L> {
         direction
     }
     #[inline(always)]
-    fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        triangle::moller_trumbore(&seen.splat(), *aim, t_min, t_max)
+    fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        triangle::moller_trumbore(&seen.map(L::splat), *aim, t_min, t_max)
     }
 }
 

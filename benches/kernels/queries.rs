@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion};
 use raypacket::math::{BATCH, Blocked, HitBatch, Lanes, NONE, RayBatch};
 use raypacket::scene::Scene;
-use raypacket::trace::{Candidates, intersect, occluded};
+use raypacket::trace::{Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use crate::beams::Beams;
@@ -16,7 +16,7 @@ use crate::scenes::{Pcg, compiled};
 
 /// What `intersect` finds, after a look whether `occluded` says the same.
 fn answers<L: Lanes>(name: &str, scene: &Scene, rays: &RayBatch) -> HitBatch {
-    let (mut hits, mut blocked, mut scratch) = (HitBatch::default(), Blocked::default(), Candidates::default());
+    let (mut hits, mut blocked, mut scratch) = (HitBatch::default(), Blocked::default(), Scratch::default());
     intersect::<L>(scene, rays, &mut hits, &mut scratch);
     occluded::<L>(scene, rays, &mut blocked, &mut scratch);
     for i in 0..BATCH {
@@ -33,7 +33,7 @@ fn agree<L: Lanes>(name: &str, scene: &Scene, rays: &RayBatch, expected: &HitBat
 }
 
 fn nearest<L: Lanes>(criterion: &mut Criterion, name: &str, scene: &Scene, rays: &RayBatch) {
-    let (mut hits, mut scratch) = (HitBatch::default(), Candidates::default());
+    let (mut hits, mut scratch) = (HitBatch::default(), Scratch::default());
     let id = BenchmarkId::new(format!("{name}/intersect"), L::NAME);
     common::per_ray(&mut criterion.benchmark_group("kinds"), id, BATCH as u64, || {
         intersect::<L>(black_box(scene), black_box(rays), &mut hits, &mut scratch);
@@ -42,7 +42,7 @@ fn nearest<L: Lanes>(criterion: &mut Criterion, name: &str, scene: &Scene, rays:
 }
 
 fn any<L: Lanes>(criterion: &mut Criterion, name: &str, scene: &Scene, rays: &RayBatch) {
-    let (mut blocked, mut scratch) = (Blocked::default(), Candidates::default());
+    let (mut blocked, mut scratch) = (Blocked::default(), Scratch::default());
     let id = BenchmarkId::new(format!("{name}/occluded"), L::NAME);
     common::per_ray(&mut criterion.benchmark_group("kinds"), id, BATCH as u64, || {
         occluded::<L>(black_box(scene), black_box(rays), &mut blocked, &mut scratch);

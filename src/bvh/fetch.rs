@@ -21,19 +21,24 @@ impl Bvh {
     /// One child, from its first cache line to its last.
     #[inline(always)]
     pub(crate) fn fetch_child(&self, child: Child) {
-        let i = child.index();
         match child.kind() {
-            Kind::Node => lines::<4>(self.nodes.get(i).map(|node| &node.ends[0][0])),
-            Kind::Triangles => lines::<5>(self.triangles.get(i).map(|block| &block.corners[0][0])),
-            Kind::Spheres => lines::<3>(self.spheres.get(i).map(|block| &block.center[0])),
-            Kind::Others => (),
+            Kind::Node => {
+                let node = self.nodes.get(child.index());
+                lines(size_of::<Node>(), node.map(|node| &node.ends[0][0][..]));
+            }
+            _ => self.blocks.fetch(child),
         }
     }
 }
 
+/// All cache lines of what is so large and begins with these numbers.
 #[inline(always)]
-fn lines<const LINES: usize>(first: Option<&[f32; 8]>) {
+pub(super) fn lines<T>(bytes: usize, first: Option<&[T]>) {
+    let numbers = LINE / size_of::<T>();
     if let Some(first) = first {
-        (0..LINES).for_each(|line| prefetch_index(first, 16 * line));
+        (0..bytes.div_ceil(LINE)).for_each(|line| prefetch_index(first, numbers * line));
     }
 }
+
+/// Bytes of a cache line.
+const LINE: usize = 64;

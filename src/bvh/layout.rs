@@ -1,9 +1,7 @@
 //! Wide nodes and blocks, in the order in which a traversal that goes left first comes by.
 
-use rayon::prelude::*;
-
 use super::build::{Binary, Tree};
-use super::{BLOCK, Bvh, Child, Class, Node, OtherBlock, Source, SphereBlock, TriangleBlock, WIDTH};
+use super::{BLOCK, Bvh, Child, Kind, Node, Source, WIDTH};
 use crate::math::NONE;
 
 /// A binary subtree: the place of its node, and of its first primitive in the order.
@@ -13,19 +11,12 @@ struct Place {
     first: usize,
 }
 
-/// A block to be filled.
-#[derive(Clone, Copy, Debug)]
-struct Leaf {
-    first: u32,
-    len: u32,
-}
-
 struct Layout<'a, S> {
     source: &'a S,
     tree: &'a Tree,
     nodes: Vec<Node>,
-    /// A list a class.
-    leaves: [Vec<Leaf>; 3],
+    /// The ids of every block; a list for each of [`Kind::BLOCKS`].
+    ids: Vec<Vec<[u32; BLOCK]>>,
     depth: usize,
     /// The sums of the squares and the cubes of the blocks' largest extents, but for the largest blocks.
     extents: [f64; 2],
@@ -33,21 +24,11 @@ struct Layout<'a, S> {
 
 /// The tree as it is traversed.
 pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
-    let mut layout =
-        Layout { source, tree, nodes: Vec::new(), leaves: [const { Vec::new() }; 3], depth: 0, extents: [0.0; 2] };
+    let ids = vec![Vec::new(); Kind::BLOCKS.len()];
+    let mut layout = Layout { source, tree, nodes: Vec::new(), ids, depth: 0, extents: [0.0; 2] };
     let root = layout.child(Place::default(), 1);
-    let [triangles, spheres, others] = &layout.leaves;
-    let indices = |leaf: &Leaf| {
-        let mut indices = [0; BLOCK];
-        let indices_of = &tree.order[leaf.first as usize..][..leaf.len as usize];
-        indices[..indices_of.len()].copy_from_slice(indices_of);
-        indices[..indices_of.len()].sort_unstable();
-        (indices, indices_of.len())
-    };
     Bvh {
-        triangles: fill(triangles, |leaf| triangle_block(source, indices(leaf))),
-        spheres: fill(spheres, |leaf| sphere_block(source, indices(leaf))),
-        others: fill(others, |leaf| other_block(source, indices(leaf))),
+        blocks: source.blocks(&layout.ids),
         root,
         bounds: tree.nodes[0].bounds,
         depth: layout.depth,
@@ -58,10 +39,6 @@ pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
         },
         nodes: layout.nodes,
     }
-}
-
-fn fill<B: Send>(leaves: &[Leaf], make: impl Fn(&Leaf) -> B + Sync + Send) -> Vec<B> {
-    leaves.par_iter().with_min_len(256).map(make).collect()
 }
 
 impl<S: Source> Layout<'_, S> {
@@ -81,7 +58,7 @@ impl<S: Source> Layout<'_, S> {
             let child = self.child(place, depth + 1);
             self.nodes[at].set(lane, self.tree.nodes[place.node].bounds, child);
         }
-        Child::node(at)
+        Child::new(Kind::Node, at)
     }
 
     /// The at most `children` children that a subtree is shown as.
@@ -112,42 +89,21 @@ impl<S: Source> Layout<'_, S> {
             self.extents[0] += extent * extent;
             self.extents[1] += extent * extent * extent;
         }
-        let leaves = &mut self.leaves[class as usize];
-        let at = leaves.len();
-        leaves.push(Leaf { first: place.first as u32, len: binary.len });
-        match class {
-            Class::Triangle => Child::triangles(at),
-            Class::Sphere => Child::spheres(at),
-            Class::Other => Child::others(at),
+        let mut ids = [NONE; BLOCK];
+        let order = &self.tree.order[place.first..][..binary.len as usize];
+        ids.iter_mut().zip(order).for_each(|(id, &i)| *id = self.source.id(i as usize));
+        ids.sort_unstable();
+        // Pieces of one primitive are it but once.
+        let mut last = 0;
+        for at in 1..BLOCK {
+            if ids[at] != ids[last] {
+                last += 1;
+                ids[last] = ids[at];
+            }
         }
+        ids[last + 1..].fill(NONE);
+        let list = &mut self.ids[class.kind() as usize - 1];
+        list.push(ids);
+        Child::new(class.kind(), list.len() - 1)
     }
-}
-
-fn triangle_block(source: &impl Source, (indices, len): ([u32; BLOCK], usize)) -> TriangleBlock {
-    let mut block = TriangleBlock::EMPTY;
-    for (lane, &i) in indices[..len].iter().enumerate() {
-        let corners = source.triangle(i as usize);
-        block.id[lane] = source.id(i as usize);
-        for (columns, corner) in block.corners.iter_mut().zip(corners) {
-            columns.iter_mut().zip(corner.to_array()).for_each(|(column, value)| column[lane] = value);
-        }
-    }
-    block
-}
-
-fn sphere_block(source: &impl Source, (indices, len): ([u32; BLOCK], usize)) -> SphereBlock {
-    let mut block = SphereBlock::EMPTY;
-    for (lane, &i) in indices[..len].iter().enumerate() {
-        let (center, radius) = source.sphere(i as usize);
-        block.id[lane] = source.id(i as usize);
-        block.radius[lane] = radius;
-        block.center.iter_mut().zip(center.to_array()).for_each(|(column, value)| column[lane] = value);
-    }
-    block
-}
-
-fn other_block(source: &impl Source, (indices, len): ([u32; BLOCK], usize)) -> OtherBlock {
-    let mut block = OtherBlock { id: [NONE; BLOCK] };
-    block.id.iter_mut().zip(&indices[..len]).for_each(|(id, &i)| *id = source.id(i as usize));
-    block
 }

@@ -16,6 +16,7 @@
 
 mod aabb;
 mod bins;
+mod block;
 mod build;
 mod collapse;
 mod fetch;
@@ -25,13 +26,11 @@ mod stats;
 #[cfg(test)]
 mod tests;
 
-use glam::Vec3;
 use wide::f32x8;
 
 pub use aabb::Aabb;
+pub use block::{Block, BlockList, Blocks, Kind};
 pub use stats::Stats;
-
-use crate::math::NONE;
 
 /// The children of a node.
 pub const WIDTH: usize = 8;
@@ -50,74 +49,41 @@ pub const BLOCK_COST: f64 = 1.5;
 /// What every primitive of a block adds: packets test those that a cull leaves one by one.
 pub const PRIMITIVE_COST: f64 = 0.05;
 
-/// What a primitive is to the tree.
+/// What primitives of a block have in common: a kind and a variant of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// Copied to [`TriangleBlock`]s.
-    Triangle,
-    /// Copied to [`SphereBlock`]s.
-    Sphere,
-    /// Known by its id alone.
-    Other,
+pub struct Class(u16);
+
+impl Class {
+    /// Of a kind and the code of a variant, which is below 32.
+    pub fn new(kind: Kind, code: u8) -> Self {
+        Self((kind as u16) << 5 | u16::from(code & 31))
+    }
+
+    /// The kind.
+    pub fn kind(self) -> Kind {
+        Kind::BY_NUMBER[usize::from(self.0 >> 5) & 15]
+    }
 }
 
-/// What a child is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A node.
-    Node,
-    /// A block of triangles.
-    Triangles,
-    /// A block of spheres.
-    Spheres,
-    /// A block of other primitives.
-    Others,
-}
-
-/// A child of a node: what it is in the two highest bits, and an index in the other thirty: of a node, or of a block
-/// of its kind.
+/// A child of a node: what it is in the four highest bits, and an index in the others: of a node, or of a block of its
+/// kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Child(u32);
 
 impl Child {
-    /// No child. Its box is empty; a ray with an infinite margin may ask nonetheless, and finds that no block has this
-    /// index.
+    /// No child. Its box is empty; a ray with an infinite margin may ask nonetheless, and finds nothing.
     pub const EMPTY: Self = Self(u32::MAX);
 
-    /// Node `i`.
-    pub fn node(i: usize) -> Self {
-        Self::new(0, i)
+    /// The node or block `i` of its kind.
+    pub fn new(kind: Kind, i: usize) -> Self {
+        debug_assert!(i <= MOST_PRIMITIVES);
+        Self((kind as u32) << INDEX_BITS | i as u32)
     }
 
-    /// Triangle block `i`.
-    pub fn triangles(i: usize) -> Self {
-        Self::new(1, i)
-    }
-
-    /// Sphere block `i`.
-    pub fn spheres(i: usize) -> Self {
-        Self::new(2, i)
-    }
-
-    /// Block `i` of other primitives.
-    pub fn others(i: usize) -> Self {
-        Self::new(3, i)
-    }
-
-    fn new(kind: u32, i: usize) -> Self {
-        debug_assert!(i < MOST_PRIMITIVES);
-        Self(kind << 30 | i as u32)
-    }
-
-    /// What it is; [`Kind::Others`] for [`Child::EMPTY`], with an index that no block has.
+    /// What it is; [`Kind::Nothing`] for [`Child::EMPTY`].
     #[inline(always)]
     pub fn kind(self) -> Kind {
-        match self.0 >> 30 {
-            0 => Kind::Node,
-            1 => Kind::Triangles,
-            2 => Kind::Spheres,
-            _ => Kind::Others,
-        }
+        Kind::BY_NUMBER[(self.0 >> INDEX_BITS) as usize]
     }
 
     /// As a number.
@@ -135,12 +101,15 @@ impl Child {
     /// Which one of its kind.
     #[inline(always)]
     pub fn index(self) -> usize {
-        (self.0 & (u32::MAX >> 2)) as usize
+        (self.0 & (u32::MAX >> (32 - INDEX_BITS))) as usize
     }
 }
 
-/// The most primitives a tree can hold: 2³⁰ − 1, so that every index fits a [`Child`].
-pub const MOST_PRIMITIVES: usize = (1 << 30) - 1;
+/// Bits of a [`Child`] that hold an index.
+const INDEX_BITS: u32 = 28;
+
+/// The most primitives a tree can hold: 2²⁸ − 1, so that every index fits a [`Child`].
+pub const MOST_PRIMITIVES: usize = (1 << INDEX_BITS) - 1;
 
 /// Eight children side by side, in 256 bytes.
 ///
@@ -196,59 +165,6 @@ impl Node {
     }
 }
 
-/// Up to eight triangles side by side, in 320 bytes; ids ascend.
-///
-/// Unused lanes have all corners at 0, hence no area, and are never hit; their id is [`NONE`].
-#[repr(C, align(32))]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TriangleBlock {
-    /// Corner, component, lane.
-    pub corners: [[[f32; BLOCK]; 3]; 3],
-    /// Primitive ids.
-    pub id: [u32; BLOCK],
-}
-
-impl TriangleBlock {
-    /// Without triangles.
-    pub const EMPTY: Self = Self { corners: [[[0.0; BLOCK]; 3]; 3], id: [NONE; BLOCK] };
-
-    /// The corners of a triangle.
-    #[inline(always)]
-    pub fn triangle(&self, lane: usize) -> [Vec3; 3] {
-        let [a, b, c] = &self.corners;
-        let corner = |c: &[[f32; BLOCK]; 3]| Vec3::new(c[0][lane], c[1][lane], c[2][lane]);
-        [corner(a), corner(b), corner(c)]
-    }
-}
-
-/// Up to eight spheres side by side, in 160 bytes; ids ascend.
-///
-/// Unused lanes have their centre at 0 and the radius NaN: so is then r², the discriminant, and no comparison with it
-/// is true, wherever the ray starts. (A radius of 0 or below would not do: squared it is a point or a sphere that a
-/// ray can hit.) Their id is [`NONE`].
-#[repr(C, align(32))]
-#[derive(Clone, Copy, Debug)]
-pub struct SphereBlock {
-    /// Centres: component, lane.
-    pub center: [[f32; BLOCK]; 3],
-    /// Radii.
-    pub radius: [f32; BLOCK],
-    /// Primitive ids.
-    pub id: [u32; BLOCK],
-}
-
-impl SphereBlock {
-    /// Without spheres.
-    pub const EMPTY: Self = Self { center: [[0.0; BLOCK]; 3], radius: [f32::NAN; BLOCK], id: [NONE; BLOCK] };
-}
-
-/// Up to eight primitives of other kinds, by id; ids ascend, unused ones are [`NONE`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OtherBlock {
-    /// Primitive ids.
-    pub id: [u32; BLOCK],
-}
-
 /// What a tree is built from: primitives 0, 1 … `len` − 1.
 pub trait Source: Sync {
     /// The number of primitives, at most [`MOST_PRIMITIVES`].
@@ -259,14 +175,21 @@ pub trait Source: Sync {
     }
     /// A box around primitive `i`. What is not finite counts as ±[`f32::MAX`].
     fn bounds(&self, i: usize) -> Aabb;
+    /// Shows the boxes around the pieces that primitive `i` is cut into: itself, if it is in one.
+    #[inline(always)]
+    fn pieces(&self, i: usize, mut show: impl FnMut(Aabb)) {
+        show(self.bounds(i));
+    }
+    /// Whether any primitive is cut.
+    fn cut(&self) -> bool {
+        false
+    }
     /// What primitive `i` is.
     fn class(&self, i: usize) -> Class;
     /// Its id, which rises with `i`.
     fn id(&self, i: usize) -> u32;
-    /// Its corners; asked only of a triangle.
-    fn triangle(&self, i: usize) -> [Vec3; 3];
-    /// Its centre and radius; asked only of a sphere.
-    fn sphere(&self, i: usize) -> (Vec3, f32);
+    /// The blocks, by the ids of each; a list a kind, in the order of [`Kind::BLOCKS`].
+    fn blocks(&self, ids: &[Vec<[u32; BLOCK]>]) -> Blocks;
 }
 
 /// The tree.
@@ -274,12 +197,8 @@ pub trait Source: Sync {
 pub struct Bvh {
     /// Nodes, the root first, a child after its parent.
     pub nodes: Vec<Node>,
-    /// Blocks of triangles.
-    pub triangles: Vec<TriangleBlock>,
-    /// Blocks of spheres.
-    pub spheres: Vec<SphereBlock>,
-    /// Blocks of other primitives.
-    pub others: Vec<OtherBlock>,
+    /// Blocks of primitives.
+    pub blocks: Blocks,
     /// Where to start: a node, a block when there is but one, [`Child::EMPTY`] when there is none.
     pub root: Child,
     /// The box around everything.
@@ -298,9 +217,7 @@ impl Bvh {
         if source.is_empty() {
             return Self {
                 nodes: Vec::new(),
-                triangles: Vec::new(),
-                spheres: Vec::new(),
-                others: Vec::new(),
+                blocks: Blocks::default(),
                 root: Child::EMPTY,
                 bounds: Aabb::EMPTY,
                 depth: 0,
@@ -312,9 +229,6 @@ impl Bvh {
 
     /// The memory of nodes and blocks.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..])
-            + size_of_val(&self.triangles[..])
-            + size_of_val(&self.spheres[..])
-            + size_of_val(&self.others[..])
+        size_of_val(&self.nodes[..]) + self.blocks.bytes()
     }
 }

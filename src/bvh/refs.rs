@@ -4,7 +4,7 @@ use glam::{Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
 use super::aabb::Bounds;
-use super::{Aabb, Class, Source};
+use super::{Aabb, Class, MOST_PRIMITIVES, Source};
 
 /// Set in every stored index, so that its bits, read as a number, are neither NaN nor subnormal and so cost no
 /// arithmetic more than others do.
@@ -27,7 +27,7 @@ impl Ref {
         let max = bounds.max.to_array().map(|v| finite(v, f32::MAX));
         Self {
             min: Vec3::from(min).extend(f32::from_bits(index as u32 | NORMAL)),
-            max: Vec3::from(max).extend(class as u8 as f32),
+            max: Vec3::from(max).extend(f32::from(class.0)),
         }
     }
 
@@ -38,11 +38,7 @@ impl Ref {
 
     #[inline(always)]
     pub fn class(&self) -> Class {
-        match self.max.w as u8 {
-            0 => Class::Triangle,
-            1 => Class::Sphere,
-            _ => Class::Other,
-        }
+        Class(self.max.w as u16)
     }
 
     #[inline(always)]
@@ -79,8 +75,19 @@ impl Extent {
     }
 }
 
-/// All primitives of a source, in its order.
+/// All primitives of a source, in its order, in pieces where that is wanted and room is left.
 pub(super) fn collect(source: &impl Source) -> Vec<Ref> {
-    let make = |i| Ref::new(i, source.bounds(i), source.class(i));
-    (0..source.len()).into_par_iter().with_min_len(1024).map(make).collect()
+    let all = (0..source.len()).into_par_iter().with_min_len(1024);
+    if source.cut() {
+        let pieces = all.clone().flat_map_iter(|i| {
+            let mut pieces = Vec::new();
+            source.pieces(i, |bounds| pieces.push(Ref::new(i, bounds, source.class(i))));
+            pieces
+        });
+        let pieces: Vec<_> = pieces.collect();
+        if pieces.len() <= MOST_PRIMITIVES {
+            return pieces;
+        }
+    }
+    all.map(|i| Ref::new(i, source.bounds(i), source.class(i))).collect()
 }

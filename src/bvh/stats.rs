@@ -6,14 +6,14 @@ use super::{BLOCK_COST, Bvh, Child, Kind, NODE_COST, PRIMITIVE_COST};
 use crate::math::NONE;
 
 /// The size and quality of a tree.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Stats {
     /// Primitives in all blocks.
     pub primitives: usize,
     /// Wide nodes.
     pub nodes: usize,
-    /// Blocks of triangles, of spheres, of others.
-    pub blocks: [usize; 3],
+    /// Blocks, for each of [`Kind::BLOCKS`].
+    pub blocks: Vec<usize>,
     /// Mean number of children of a node; 0 without nodes.
     pub children: f64,
     /// Mean number of primitives of a block; 0 without blocks.
@@ -36,13 +36,15 @@ impl Stats {
 
 impl fmt::Display for Stats {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let [triangles, spheres, others] = self.blocks;
+        let kinds = Kind::BLOCKS.iter().zip(&self.blocks).filter(|(_, count)| **count > 0);
+        let blocks: Vec<_> = kinds.map(|(kind, count)| format!("{count} of {}", kind.name())).collect();
         write!(
             f,
-            "{} nodes with {:.1} children each, {triangles} + {spheres} + {others} blocks of triangles, spheres, \
-             others with {:.1} primitives each, {:.0} bytes a primitive, depth {}, SAH cost {:.1}",
+            "{} nodes with {:.1} children each, blocks: {}, with {:.1} primitives each, {:.0} bytes a primitive, depth \
+             {}, SAH cost {:.1}",
             self.nodes,
             self.children,
+            blocks.join(", "),
             self.fill,
             self.bytes_per_primitive(),
             self.depth,
@@ -56,15 +58,9 @@ fn ratio(a: usize, b: usize) -> f64 {
 }
 
 impl Bvh {
-    /// The number of primitives in a block. Panics for a node.
+    /// The number of primitives in a block.
     fn fill(&self, block: Child) -> usize {
-        let id = match block.kind() {
-            Kind::Triangles => self.triangles[block.index()].id,
-            Kind::Spheres => self.spheres[block.index()].id,
-            Kind::Others => self.others[block.index()].id,
-            Kind::Node => unreachable!("a node is no block"),
-        };
-        id.iter().filter(|&&id| id != NONE).count()
+        self.blocks.ids(block).iter().filter(|&&id| id != NONE).count()
     }
 
     fn cost(&self, child: Child) -> f64 {
@@ -91,14 +87,14 @@ impl Bvh {
         for node in &self.nodes {
             (0..node.len()).for_each(|lane| count(node.child[lane], node.bounds(lane).area_f64()));
         }
-        let blocks = [self.triangles.len(), self.spheres.len(), self.others.len()];
+        let blocks = self.blocks.counts();
         Stats {
             primitives,
             nodes: self.nodes.len(),
-            blocks,
             // All but the root is somebody's child.
             children: ratio(children.max(1) - 1, self.nodes.len()),
             fill: ratio(primitives, blocks.iter().sum()),
+            blocks,
             bytes: self.bytes(),
             depth: self.depth,
             sah: if whole > 0.0 { cost / whole } else { 0.0 },

@@ -6,13 +6,17 @@ use super::build::{Tree, build};
 use super::layout::layout;
 use super::refs::collect;
 use super::*;
-use crate::geometry::methods::SphereMethod;
-use crate::geometry::{Sides, Triangles, sphere, triangle};
-use crate::math::Vec3 as Lane3;
+use crate::geometry::{Cuboids, Primitives, Sides, Spheres, Triangles};
+use crate::math::NONE;
 
-/// Primitives of all classes; ids rise faster than indices.
+/// Primitives of three kinds; every storage has a place for each, so that ids tell where it is.
 #[derive(Default)]
-struct Items(Vec<Item>);
+struct Items {
+    items: Vec<Item>,
+    spheres: Spheres,
+    triangles: Triangles,
+    cuboids: Cuboids,
+}
 
 #[derive(Clone, Copy)]
 enum Item {
@@ -21,34 +25,55 @@ enum Item {
     Other(Aabb),
 }
 
+/// The id of the first.
+const FIRST: u32 = 7;
+
+impl Items {
+    fn new(items: Vec<Item>) -> Self {
+        let mut all = Self::default();
+        items.into_iter().for_each(|item| all.push(item));
+        all
+    }
+
+    fn push(&mut self, item: Item) {
+        self.items.push(item);
+        let sphere = if let Item::Sphere(center, radius) = item { (center, radius) } else { (Vec3::ZERO, 1.0) };
+        self.spheres.push(sphere.0, sphere.1, Sides::Both, 0);
+        self.triangles.push(if let Item::Triangle(corners) = item { corners } else { [Vec3::ZERO; 3] }, Sides::Both, 0);
+        let Aabb { min, max } = if let Item::Other(bounds) = item { bounds } else { Aabb::EMPTY };
+        self.cuboids.push(min, max, Vec3::ZERO, 0);
+    }
+}
+
 impl Source for Items {
     fn len(&self) -> usize {
-        self.0.len()
+        self.items.len()
     }
     fn bounds(&self, i: usize) -> Aabb {
-        match self.0[i] {
+        match self.items[i] {
             Item::Triangle(corners) => corners.into_iter().fold(Aabb::EMPTY, Aabb::extend),
             Item::Sphere(c, r) => Aabb { min: c - r, max: c + r },
             Item::Other(bounds) => bounds,
         }
     }
     fn class(&self, i: usize) -> Class {
-        match self.0[i] {
-            Item::Triangle(_) => Class::Triangle,
-            Item::Sphere(..) => Class::Sphere,
-            Item::Other(_) => Class::Other,
+        match self.items[i] {
+            Item::Triangle(_) => Class::new(Kind::Triangles, 0),
+            Item::Sphere(..) => Class::new(Kind::Spheres, 0),
+            Item::Other(_) => Class::new(Kind::Cuboids, 0),
         }
     }
     fn id(&self, i: usize) -> u32 {
-        3 * i as u32 + 7
+        i as u32 + FIRST
     }
-    fn triangle(&self, i: usize) -> [Vec3; 3] {
-        let Item::Triangle(corners) = self.0[i] else { panic!("{i} is no triangle") };
-        corners
-    }
-    fn sphere(&self, i: usize) -> (Vec3, f32) {
-        let Item::Sphere(center, radius) = self.0[i] else { panic!("{i} is no sphere") };
-        (center, radius)
+    fn blocks(&self, ids: &[Vec<[u32; BLOCK]>]) -> Blocks {
+        let of = |kind: Kind| &ids[kind as usize - 1][..];
+        Blocks {
+            spheres: BlockList::of(&self.spheres, FIRST, of(Kind::Spheres)),
+            triangles: BlockList::of(&self.triangles, FIRST, of(Kind::Triangles)),
+            cuboids: BlockList::of(&self.cuboids, FIRST, of(Kind::Cuboids)),
+            ..Blocks::default()
+        }
     }
 }
 
@@ -75,11 +100,11 @@ fn mixed(len: usize) -> Items {
             _ => Item::Other(Aabb { min: p, max: p + size }),
         }
     };
-    Items((0..len).map(item).collect())
+    Items::new((0..len).map(item).collect())
 }
 
 fn boxes(boxes: impl IntoIterator<Item = [Vec3; 2]>) -> Items {
-    Items(boxes.into_iter().map(|[min, max]| Item::Other(Aabb { min, max })).collect())
+    Items::new(boxes.into_iter().map(|[min, max]| Item::Other(Aabb { min, max })).collect())
 }
 
 /// Everything that a traversal relies on.
@@ -101,7 +126,7 @@ impl Check<'_> {
         assert!(depth <= MOST_DEPTH, "{depth}");
         assert!(check.seen.iter().all(|&n| n == 1), "every primitive is in exactly one block");
         assert_eq!(check.visited, bvh.nodes.len());
-        assert_eq!(check.blocks, bvh.triangles.len() + bvh.spheres.len() + bvh.others.len());
+        assert_eq!(check.blocks, bvh.blocks.counts().iter().sum::<usize>());
         bvh
     }
 
@@ -110,31 +135,22 @@ impl Check<'_> {
         let i = child.index();
         match child.kind() {
             Kind::Node => self.node(i),
-            Kind::Triangles => {
-                let block = self.bvh.triangles[i];
-                let corners = |lane| block.corners.map(|c| Vec3::from(c.map(|column| column[lane])));
-                let len = self.block(block.id, |s, i, lane| s.triangle(i) == corners(lane));
-                assert!((len..BLOCK).all(|lane| corners(lane) == [Vec3::ZERO; 3]));
-                (self.bounds(&block.id), 0)
-            }
-            Kind::Spheres => {
-                let block = self.bvh.spheres[i];
-                let center = |lane| Vec3::from(block.center.map(|column| column[lane]));
-                let len = self.block(block.id, |s, i, lane| s.sphere(i) == (center(lane), block.radius[lane]));
-                assert!((len..BLOCK).all(|lane| center(lane) == Vec3::ZERO && block.radius[lane].is_nan()));
-                (self.bounds(&block.id), 0)
-            }
-            Kind::Others => {
-                let id = self.bvh.others[i].id;
-                self.block(id, |s, i, _| s.class(i) == Class::Other);
+            kind => {
+                let (items, blocks) = (self.source, &self.bvh.blocks);
+                match kind {
+                    Kind::Triangles => same(&items.triangles, &blocks.triangles.blocks[i]),
+                    Kind::Spheres => same(&items.spheres, &blocks.spheres.blocks[i]),
+                    _ => same(&items.cuboids, &blocks.cuboids.blocks[i]),
+                }
+                let id = *blocks.ids(child);
+                self.block(id, kind);
                 (self.bounds(&id), 0)
             }
         }
     }
 
     fn index(id: u32) -> usize {
-        assert_eq!(id % 3, 1);
-        (id as usize - 7) / 3
+        (id - FIRST) as usize
     }
 
     /// The union of the boxes of a block's primitives, as the builder reads them.
@@ -149,17 +165,16 @@ impl Check<'_> {
         id.iter().filter(|&&id| id != NONE).map(bounds).fold(Aabb::EMPTY, Aabb::union)
     }
 
-    fn block(&mut self, id: [u32; BLOCK], same: impl Fn(&Items, usize, usize) -> bool) -> usize {
+    fn block(&mut self, id: [u32; BLOCK], kind: Kind) {
         self.blocks += 1;
         let len = id.iter().take_while(|&&id| id != NONE).count();
         assert!(len > 0 && id[len..].iter().all(|&id| id == NONE));
         assert!(id[..len].is_sorted_by(|a, b| a < b));
-        for (lane, &id) in id[..len].iter().enumerate() {
+        for &id in &id[..len] {
             let i = Self::index(id);
-            assert!(same(self.source, i, lane));
+            assert_eq!(self.source.class(i).kind(), kind);
             self.seen[i] += 1;
         }
-        len
     }
 
     fn node(&mut self, i: usize) -> (Aabb, usize) {
@@ -182,6 +197,15 @@ impl Check<'_> {
     }
 }
 
+/// Asserts that a block holds the numbers of its primitives, and in its unused lanes those of the first.
+fn same<K: Primitives>(kind: &K, block: &Block<K>) {
+    for lane in 0..BLOCK {
+        let id = if lane < block.len() { block.id[lane] } else { block.id[0] };
+        let (stored, shape) = (block.primitive(lane), kind.shape(Check::index(id)));
+        K::zip(&stored, &shape, |a: f32, b: f32| assert!(a.to_bits() == b.to_bits()));
+    }
+}
+
 #[test]
 fn mixed_classes_of_every_number() {
     for len in (1..40).chain([100, 1000, 5000]) {
@@ -195,8 +219,8 @@ fn nothing_and_one() {
     assert_eq!((bvh.root, bvh.depth, bvh.bytes(), bvh.bounds), (Child::EMPTY, 0, 0, Aabb::EMPTY));
     assert_eq!(bvh.stats().sah, 0.0);
 
-    let bvh = Check::of(&Items(vec![Item::Sphere(Vec3::ONE, 1.0)]));
-    assert_eq!((bvh.root, bvh.depth), (Child::spheres(0), 0));
+    let bvh = Check::of(&Items::new(vec![Item::Sphere(Vec3::ONE, 1.0)]));
+    assert_eq!((bvh.root, bvh.depth), (Child::new(Kind::Spheres, 0), 0));
     assert_eq!(bvh.stats().sah, BLOCK_COST + PRIMITIVE_COST);
 }
 
@@ -247,7 +271,7 @@ fn bad_inputs() {
 fn one_huge_primitive_does_not_spoil_the_rest() {
     let alone = mixed(2000);
     let mut with = mixed(2000);
-    with.0.push(Item::Sphere(Vec3::splat(3e30), 1e29));
+    with.push(Item::Sphere(Vec3::splat(3e30), 1e29));
     let [alone, with] = [alone, with].map(|items| Check::of(&items));
     // As many nodes and blocks, give or take those that the root needs.
     assert!(with.nodes.len().abs_diff(alone.nodes.len()) <= 8, "{} {}", with.nodes.len(), alone.nodes.len());
@@ -290,9 +314,12 @@ fn the_same_tree_whatever_the_threads() {
     let one = on(1);
     for threads in [2, 3] {
         let other = on(threads);
-        assert!(one.nodes == other.nodes && one.triangles == other.triangles && one.others == other.others);
-        let bits = |s: &SphereBlock| (s.id, s.radius.map(f32::to_bits), s.center);
-        assert!(one.spheres.iter().map(bits).eq(other.spheres.iter().map(bits)));
+        assert!(one.nodes == other.nodes);
+        let ids = |bvh: &Bvh| -> Vec<[u32; BLOCK]> {
+            let children = bvh.nodes.iter().flat_map(|node| node.child);
+            children.map(|child| *bvh.blocks.ids(child)).collect()
+        };
+        assert_eq!(ids(&one), ids(&other));
         assert_eq!((one.root, one.bounds, one.depth), (other.root, other.bounds, other.depth));
     }
 }
@@ -348,49 +375,14 @@ fn clusters_stay_apart() {
 }
 
 #[test]
-fn unused_lanes_are_never_hit() {
-    let (s, t) = (SphereBlock::EMPTY, TriangleBlock::EMPTY);
-    let center = Lane3::new(s.center[0][7], s.center[1][7], s.center[2][7]);
-    let mut triangles = Triangles::default();
-    triangles.push(t.corners.map(|c| Vec3::from(c.map(|column| column[7]))), Sides::Both, 0);
-    let record = crate::geometry::Primitives::record(&triangles, 0);
-
-    let mut random = Random(9);
-    let mut hits = 0;
-    for scale in [0.0, 1e-40, 1e-20, 1e-3, 1.0, 1e10, 1e18, 1e20, 1e38] {
-        for _ in 0..200 {
-            let origin = random.point() * scale;
-            // Some straight at the lane's place, some along an axis, the others anywhere.
-            for d in [random.point(), -origin.normalize_or(Vec3::X), Vec3::X, Vec3::NEG_Z] {
-                let d = d.normalize_or(Vec3::Y);
-                let (o, lanes) = (Lane3::from(origin), Lane3::from(d));
-                for sides in [Sides::Both, Sides::Front, Sides::Back] {
-                    let seen = sphere::SeenSphere::new(center, s.radius[7], sides, SphereMethod::Stable, o);
-                    for method in [sphere::stable, sphere::one_sided, sphere::quadratic, sphere::geometric] {
-                        assert!(method(&seen, lanes, 0.0, f32::INFINITY).is_none(), "{origin} {d}");
-                    }
-                }
-                // A radius of 0 would be hit.
-                let point = sphere::SeenSphere::new(center, 0.0, Sides::Both, SphereMethod::Stable, o);
-                hits += usize::from(sphere::stable(&point, lanes, 0.0, f32::INFINITY).is_some());
-
-                let seen = <Triangles as crate::geometry::Primitives>::seen(&record, o);
-                assert!(triangle::watertight(&seen, &triangle::Aim::new(lanes), 0.0, f32::INFINITY).is_none());
-                let seen = triangle::SeenEdges::new(&record, o);
-                assert!(triangle::moller_trumbore(&seen, lanes, 0.0, f32::INFINITY).is_none());
-            }
-        }
-    }
-    assert!(hits > 0);
-}
-
-#[test]
 fn children_are_what_they_were_made() {
     for i in [0, 1, 12345, MOST_PRIMITIVES - 1] {
-        let made = [Child::node(i), Child::triangles(i), Child::spheres(i), Child::others(i)];
-        assert_eq!(made.map(Child::kind), [Kind::Node, Kind::Triangles, Kind::Spheres, Kind::Others]);
-        assert!(made.into_iter().all(|child| child.index() == i && child != Child::EMPTY));
+        for kind in Kind::BLOCKS.iter().copied().chain([Kind::Node]) {
+            let child = Child::new(kind, i);
+            assert!(child.kind() == kind && child.index() == i && child != Child::EMPTY);
+        }
     }
+    assert_eq!(Child::EMPTY.kind(), Kind::Nothing);
 }
 
 #[test]
@@ -410,12 +402,16 @@ fn areas_and_centers() {
 #[test]
 fn figures_of_a_tree() {
     let far = |i: f32| Item::Sphere(Vec3::X * i, 0.1);
-    let stats = Check::of(&Items([0.0, 0.01, 100.0].map(far).to_vec())).stats();
-    assert_eq!((stats.primitives, stats.nodes, stats.blocks, stats.children), (3, 1, [0, 2, 0], 2.0));
+    let stats = Check::of(&Items::new([0.0, 0.01, 100.0].map(far).to_vec())).stats();
+    assert_eq!((stats.primitives, stats.nodes, stats.children), (3, 1, 2.0));
+    assert_eq!(stats.blocks.iter().sum::<usize>(), 2);
     assert_eq!((stats.fill, stats.bytes, stats.depth), (1.5, 256 + 2 * 160, 1));
     // The blocks' boxes are small beside the root's.
     assert!(stats.sah > NODE_COST && stats.sah < NODE_COST + 0.1);
     let text = stats.to_string();
-    assert!(text.starts_with("1 nodes with 2.0 children each, 0 + 2 + 0 blocks"), "{text}");
+    assert!(
+        text.starts_with("1 nodes with 2.0 children each, blocks: 2 of spheres, with 1.5 primitives each"),
+        "{text}"
+    );
     assert!(text.contains("192 bytes a primitive, depth 1"), "{text}");
 }

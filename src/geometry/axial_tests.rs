@@ -137,8 +137,7 @@ fn found<P: Primitives, L: Lanes>(kind: &P, rays: &[(V, V)]) -> Vec<Option<f32>>
             L::load(&values)
         };
         let [o, d] = [(|r| r.0) as fn(&(V, V)) -> V, |r| r.1].map(|f| Vec3::new(lane(0, f), lane(1, f), lane(2, f)));
-        let seen = P::seen(&kind.record(0), o);
-        let nearest = P::nearest::<L, true>(&seen, &P::aim(d), L::zero(), L::splat(f32::INFINITY));
+        let nearest = kind.test(0, o, d, L::zero(), L::splat(f32::INFINITY));
         let mut t = vec![0.0; L::WIDTH];
         let mut bits = 0;
         if let Some((distance, inside)) = nearest {
@@ -157,9 +156,10 @@ pub(super) fn answers<P: Primitives>(kind: &P, rays: &[(V, V)]) -> Vec<Option<f3
     assert_eq!(bits(one.clone()), bits(found::<P, f32x4>(kind, rays)), "x4");
     assert_eq!(bits(one.clone()), bits(found::<P, f32x8>(kind, rays)), "x8");
     for ((o, d), t) in rays.iter().zip(&one) {
-        let seen = P::splat::<f32x8>(&P::seen(&kind.record(0), (*o).into()));
+        let variant = kind.variant(0);
+        let seen = P::splat_seen::<f32x8>(&P::seen(&kind.shape(0), variant, (*o).into()));
         let far = f32x8::splat(f32::INFINITY);
-        let nearest = P::nearest::<f32x8, true>(&seen, &P::aim(Vec3::splat(*d)), f32x8::ZERO, far);
+        let nearest = P::nearest(&seen, variant, &P::aim(Vec3::splat(*d)), f32x8::ZERO, far);
         let shared = nearest.filter(|(_, m)| crate::math::LaneMask::all(*m)).map(|(t, _)| t.to_array()[5].to_bits());
         assert_eq!(shared, t.map(f32::to_bits), "{o} {d}");
     }

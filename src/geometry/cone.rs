@@ -24,8 +24,9 @@
 //! turned by at most 8 ε: t is off by that over cos θ at incidence θ, and hits differ only where such a ray's would. A
 //! cone flatter than 2⁻⁴⁰ of its radius is as high as that. What leaves the surface hits nothing there.
 
-use super::axial::{self, Crossing, slab};
-use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface, columns};
+use super::axial::{self, Crossing, Hull, slab};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3, angle, three};
 
 /// The least height, in differences of the radii: far below ε, and its square a normal number.
@@ -43,69 +44,71 @@ pub struct Cones {
     /// Lengths.
     pub length: Vec<f32>,
     /// What the test makes of these.
-    pub shape: Vec<ConeShape>,
+    pub numbers: Vec<ConeNumbers<f32>>,
     /// Whether the narrow end is the apex of the description, so that heights count from the wide one.
     pub upright: Vec<bool>,
     /// 2½ times the distance from the narrow end's middle to the wide rim; see [`Surface::reach`].
     pub reach: Vec<f32>,
-    /// Whether the ends are closed.
-    pub caps: Vec<bool>,
-    /// Which side of each is there.
-    pub sides: Vec<Sides>,
+    /// Whether the ends are closed, and which side is there.
+    pub hull: Vec<Hull>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    boxes: Vec<[glam::Vec3; 2]>,
     balls: Balls,
 }
 
-/// A cone's numbers, lengths in the cone's own unit unless said otherwise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConeShape {
-    /// T cos α, B cos α.
-    pub across: [glam::Vec3; 2],
-    /// cos α and sin α of the half-angle α.
-    pub turn: [f32; 2],
-    /// The radii of the narrow and the wide end, times cos α.
-    pub radii: [f32; 2],
-    /// The length.
-    pub length: f32,
-    /// Units in a world unit, a power of two.
-    pub scale: f32,
-    /// World units in a unit.
-    pub unit: f32,
-}
-
-/// A cone as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct ConeRecord {
-    /// The middle of the narrow end.
-    pub narrow: Vec3<f32>,
-    /// A.
-    pub axis: Vec3<f32>,
-    /// Its numbers.
-    pub shape: ConeShape,
-    /// Whether the ends are closed.
-    pub caps: bool,
-    /// Which side is there.
-    pub sides: Sides,
-}
-
-/// What a cone's test needs of it and of the rays' origin, in the cone's unit.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenCone<L> {
-    /// T cos α, B cos α and A.
-    pub axes: [Vec3<L>; 3],
-    /// The origin's P.
-    pub p: [L; 3],
-    /// c = ⟨P, P⟩: below zero inside the cone, and inside its mirror image beyond the tip.
-    pub c: L,
-    /// From the origin to the planes of the narrow and the wide end, along A.
-    pub ends: [L; 2],
-    /// Its numbers.
-    pub shape: ConeShape,
-    /// Whether the ends are closed.
-    pub caps: bool,
-    /// Which side is there.
-    pub sides: Sides,
+numbers! {
+    /// A cone's numbers, lengths in the cone's own unit unless said otherwise.
+    ConeNumbers {
+        /// T cos α, B cos α.
+        across: [Vec3; 2],
+        /// cos α and sin α of the half-angle α.
+        turn: [T; 2],
+        /// The radii of the narrow and the wide end, times cos α.
+        radii: [T; 2],
+        /// The length.
+        length: T,
+        /// Units in a world unit, a power of two.
+        scale: T,
+        /// World units in a unit.
+        unit: T,
+    }
+    /// A cone as stored.
+    ConeShape {
+        /// The middle of the narrow end, in world units.
+        narrow: Vec3,
+        /// T cos α, B cos α and A.
+        axes: [Vec3; 3],
+        /// cos α and sin α of the half-angle α.
+        turn: [T; 2],
+        /// The radii of the narrow and the wide end, times cos α, in the cone's unit.
+        radii: [T; 2],
+        /// The length, in the cone's unit.
+        length: T,
+        /// Units in a world unit, a power of two.
+        scale: T,
+        /// World units in a unit.
+        unit: T,
+        /// The box around it.
+        bounds: [Vec3; 2],
+    }
+    /// What a cone's test needs of it and of the rays' origin, in the cone's unit.
+    SeenCone {
+        /// T cos α, B cos α and A.
+        axes: [Vec3; 3],
+        /// The origin's P.
+        p: [T; 3],
+        /// c = ⟨P, P⟩: below zero inside the cone, and inside its mirror image beyond the tip.
+        c: T,
+        /// From the origin to the planes of the narrow and the wide end, along A.
+        ends: [T; 2],
+        /// sin α.
+        sin: T,
+        /// The radii of the narrow and the wide end, times cos α.
+        radii: [T; 2],
+        /// World units in a unit.
+        unit: T,
+    }
 }
 
 impl Cones {
@@ -131,8 +134,8 @@ impl Cones {
         self.axes.push([t, b, axis].map(|a| a.as_vec3()));
         self.radii.push(radii);
         self.length.push(length as f32);
-        self.shape.push(ConeShape {
-            across: [t, b].map(|a| (a * cos).as_vec3()),
+        self.numbers.push(ConeNumbers {
+            across: [t, b].map(|a| (a * cos).as_vec3().into()),
             turn: [cos as f32, sin as f32],
             radii: [inner, outer].map(|r| (r * scale * cos) as f32),
             length: (length * scale) as f32,
@@ -141,16 +144,19 @@ impl Cones {
         });
         self.upright.push(upright);
         self.reach.push((2.5 * length.hypot(outer)) as f32);
-        self.caps.push(caps);
-        self.sides.push(sides);
+        self.hull.push(Hull { caps, sides });
         self.material.push(material);
+        self.boxes.push(self.enclose(self.material.len() - 1));
         self.balls.push_around(self.bounds(self.material.len() - 1));
     }
 
     /// A box around cone `i`.
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
-        let ([narrow, axis], [inner, outer]) = ([self.narrow(i), self.axes[i][2]], self.radii[i]);
-        axial::bounds(axis, [(narrow, inner), (narrow + axis * self.length[i], outer)])
+        self.boxes[i]
+    }
+
+    fn enclose(&self, i: usize) -> [glam::Vec3; 2] {
+        self.piece(i, 0, 1)
     }
 
     /// The middle of cone `i`'s narrow end.
@@ -165,14 +171,14 @@ impl Cones {
         let q = point - Vec3::splat(self.narrow(i));
         let [x, y, h] = three(self.axes[i], |a| Vec3::splat(a).dot(q));
         let rho = x.mul_add(x, y * y).sqrt();
-        let [cos, sin] = self.shape[i].turn;
-        let inner = L::splat(self.shape[i].radii[0] * self.shape[i].unit);
+        let [cos, sin] = self.numbers[i].turn;
+        let inner = L::splat(self.numbers[i].radii[0] * self.numbers[i].unit);
         let outside = rho.mul_add(L::splat(cos), -h.mul_add(L::splat(sin), inner));
         let beyond = h - L::splat(self.length[i]);
         let wide = beyond.abs().lt(h.abs());
         let [narrow, _] = self.radii[i];
         let mut cap = L::Mask::from_bits(0);
-        if self.caps[i] {
+        if self.hull[i].caps {
             // A tip has no disc.
             let nearest = if narrow > 0.0 { h.abs().min(beyond.abs()) } else { beyond.abs() };
             cap = nearest.lt(outside.abs()) & (wide | L::splat(narrow).gt(L::zero()));
@@ -207,70 +213,80 @@ struct Local<L: Lanes> {
 }
 
 impl Bounded for Cones {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = true;
+    #[inline(always)]
+    fn extent<L: Lanes>(cone: &ConeShape<L>) -> [Vec3<L>; 2] {
+        cone.bounds
+    }
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
+    }
+    fn pieces(&self, i: usize) -> u32 {
+        axial::pieces(|k, n| self.piece(i, k, n))
+    }
+    fn piece(&self, i: usize, k: u32, n: u32) -> [glam::Vec3; 2] {
+        let ([narrow, axis], [inner, outer]) = ([self.narrow(i), self.axes[i][2]], self.radii[i]);
+        let end = |k: u32| {
+            let part = k as f32 / n as f32;
+            (narrow + axis * (self.length[i] * part), inner * (1.0 - part) + outer * part)
+        };
+        axial::bounds(axis, [end(k), end(k + 1)])
     }
 }
 
 impl Primitives for Cones {
-    type Record = ConeRecord;
-    type Seen<L: Lanes> = SeenCone<L>;
+    type Shape<T: Number> = ConeShape<T>;
+    type Variant = Hull;
+    type Seen<T: Copy> = SeenCone<T>;
     type Aim<L: Lanes> = Vec3<L>;
+    type Named = Never;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> ConeRecord {
-        ConeRecord {
-            narrow: self.narrow(i).into(),
-            axis: self.axes[i][2].into(),
-            shape: self.shape[i],
-            caps: self.caps[i],
-            sides: self.sides[i],
-        }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &ConeRecord, origin: Vec3<L>) -> SeenCone<L> {
-        let f = (origin - Vec3::splat(r.narrow.into())) * L::splat(r.shape.scale);
-        let [t, b] = r.shape.across.map(Vec3::splat);
-        let axis = Vec3::splat(r.axis.into());
-        let (x, y, h) = (t.dot(f), b.dot(f), axis.dot(f));
-        let z = h.mul_add(L::splat(r.shape.turn[1]), L::splat(r.shape.radii[0]));
-        SeenCone {
-            axes: [t, b, axis],
-            p: [x, y, z],
-            // Not fused: what is rounded alike cancels on the surface.
-            c: x * x + y * y - z * z,
-            ends: [-h, L::splat(r.shape.length) - h],
-            shape: r.shape,
-            caps: r.caps,
-            sides: r.sides,
-        }
+    fn shape(&self, i: usize) -> ConeShape<f32> {
+        let ConeNumbers { across: [t, b], turn, radii, length, scale, unit } = self.numbers[i];
+        let (narrow, axes) = (self.narrow(i).into(), [t, b, self.axes[i][2].into()]);
+        ConeShape { narrow, axes, turn, radii, length, scale, unit, bounds: self.boxes[i].map(Vec3::from) }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenCone<f32>) -> SeenCone<L> {
-        SeenCone {
-            axes: three(s.axes, |a| Vec3::splat(a.into())),
-            p: s.p.map(L::splat),
-            c: L::splat(s.c),
-            ends: s.ends.map(L::splat),
-            shape: s.shape,
-            caps: s.caps,
-            sides: s.sides,
-        }
+    fn variant(&self, i: usize) -> Hull {
+        self.hull[i]
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCone<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        stable(seen, *d, if SIDED { seen.sides } else { Sides::Both }, t_min, t_max)
+    fn zip<A: Number, B: Number, C: Number>(a: &ConeShape<A>, b: &ConeShape<B>, f: impl Fn(A, B) -> C) -> ConeShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(cone: &ConeShape<L>, _: Hull, origin: Vec3<L>) -> SeenCone<L> {
+        let ConeShape { narrow, axes, turn: [_, sin], radii, length, scale, unit, .. } = *cone;
+        let f = (origin - narrow) * scale;
+        let [x, y, h] = three(axes, |a| a.dot(f));
+        let z = h.mul_add(sin, radii[0]);
+        // Not fused: what is rounded alike cancels on the surface.
+        let c = x * x + y * y - z * z;
+        SeenCone { axes, p: [x, y, z], c, ends: [-h, length - h], sin, radii, unit }
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &SeenCone<f32>) -> SeenCone<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(seen: &SeenCone<L>, hull: Hull, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        stable(seen, *d, hull, t_min, t_max)
     }
 
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let Local { x, y, h, rho, outside, beyond, cap, wide } = self.local(i, point);
         let [t, b, axis] = three(self.axes[i], Vec3::splat);
-        let [cos, sin] = self.shape[i].turn.map(L::splat);
+        let [cos, sin] = self.numbers[i].turn.map(L::splat);
         // At the tip any direction is as good.
         let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
         let side = axis.mul_add(-sin, radial * cos);
@@ -372,10 +388,9 @@ fn expanded<L: Lanes>([px, py, pz]: [L; 3], [qx, qy, qz]: [L; 3]) -> L {
 
 /// See the module's text.
 #[inline(always)]
-pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_min: L, t_max: L) -> Nearest<L> {
-    let shape = &seen.shape;
+pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, hull: Hull, t_min: L, t_max: L) -> LaneHits<L> {
     let [x, y, along] = three(seen.axes, |a| a.dot(direction));
-    let (p, q) = (seen.p, [x, y, along * L::splat(shape.turn[1])]);
+    let (p, q) = (seen.p, [x, y, along * seen.sin]);
     let line = Line { p, q, a: product(q, q), b: product(p, q), c: seen.c };
     let discriminant = line.discriminant();
     let possible = discriminant.ge(L::zero());
@@ -400,8 +415,9 @@ pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_
         let (x, y) = (q[0].mul_add(t, p[0]), q[1].mul_add(t, p[1]));
         x.mul_add(x, y * y)
     };
-    let [inner2, outer2] = shape.radii.map(|r| L::splat(r * r));
-    let mut crossing = if seen.caps {
+    let [inner, outer] = seen.radii;
+    let (inner2, outer2) = (inner * inner, outer * outer);
+    let mut crossing = if hull.caps {
         let (enter, exit) = (enter.max(start), exit.min(end));
         let wide = high / along;
         let disc = away(wide).le(outer2);
@@ -419,9 +435,8 @@ pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, sides: Sides, t_
         let held = |t: L| t.max(start).min(end).select(steep, t);
         Crossing { enter: held(enter), exit: held(exit), entered, left }
     };
-    let unit = L::splat(shape.unit);
-    (crossing.enter, crossing.exit) = (crossing.enter * unit, crossing.exit * unit);
-    crossing.nearest(sides, t_min, t_max)
+    (crossing.enter, crossing.exit) = (crossing.enter * seen.unit, crossing.exit * seen.unit);
+    crossing.nearest(hull.sides, t_min, t_max)
 }
 
 #[cfg(test)]

@@ -17,8 +17,9 @@
 use super::face;
 pub use super::face::Aim;
 use super::frame::along;
-use super::{Balls, Bounded, Nearest, Primitives, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
+use crate::math::{LaneMask, Lanes, Vec3, three};
 use glam::DMat3;
 
 /// ε, the unit roundoff.
@@ -35,29 +36,41 @@ pub struct Cuboids {
     pub axes: Vec<Option<[glam::Vec3; 3]>>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    boxes: Vec<[glam::Vec3; 2]>,
     balls: Balls,
 }
 
-/// A box as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct CuboidRecord {
-    /// The corner with the least coordinates, before it is turned.
-    pub min: Vec3<f32>,
-    /// The corner with the greatest.
-    pub max: Vec3<f32>,
-    /// Its own axes, where it is turned.
-    pub axes: Option<[Vec3<f32>; 3]>,
+numbers! {
+    /// A box as stored.
+    CuboidShape {
+        /// The corner with the least coordinates, before it is turned.
+        min: Vec3,
+        /// The corner with the greatest.
+        max: Vec3,
+        /// Its own axes; of account only where it is turned.
+        axes: [Vec3; 3],
+        /// The box along the world's axes around it.
+        bounds: [Vec3; 2],
+    }
+    /// What a box's test needs of it and of the rays' origin.
+    SeenCuboid {
+        /// The lower face of each pair, from the origin, in the box's own axes.
+        low: Vec3,
+        /// The upper face.
+        high: Vec3,
+        /// The box's own axes; of account only where it is turned.
+        axes: [Vec3; 3],
+    }
 }
 
-/// What a box's test needs of it and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenCuboid<L> {
-    /// The lower face of each pair, from the origin, in the box's own axes.
-    pub low: Vec3<L>,
-    /// The upper face.
-    pub high: Vec3<L>,
-    /// The box's own axes, where it is turned.
-    pub axes: Option<[Vec3<f32>; 3]>,
+/// Whether a box's axes are not the world's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Turned(pub bool);
+
+impl Variant for Turned {
+    fn code(self) -> u8 {
+        u8::from(self.0)
+    }
 }
 
 impl Cuboids {
@@ -69,6 +82,7 @@ impl Cuboids {
         let axes = [turn.x_axis, turn.y_axis, turn.z_axis].map(|axis| axis.as_vec3());
         self.axes.push((turn != DMat3::IDENTITY).then_some(axes));
         self.material.push(material);
+        self.boxes.push(self.enclose(self.material.len() - 1));
         self.balls.push_around(self.bounds(self.material.len() - 1));
     }
 
@@ -87,6 +101,10 @@ impl Cuboids {
 
     /// A box along the world's axes around box `i`.
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
+    }
+
+    fn enclose(&self, i: usize) -> [glam::Vec3; 2] {
         let [center, half] = self.center_and_half(i);
         let Some([x, y, z]) = self.axes[i] else { return self.corners(i) };
         let around = x.abs() * half.x + y.abs() * half.y + z.abs() * half.z;
@@ -100,13 +118,13 @@ impl Cuboids {
     fn own<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [Vec3<L>; 2] {
         let [center, half] = self.center_and_half(i).map(Vec3::splat);
         let q = point - center;
-        [self.axes[i].map_or(q, |axes| along(&axes.map(Vec3::from), q)), half]
+        [self.axes[i].map_or(q, |axes| along(&three(axes, Vec3::splat), q)), half]
     }
 
     /// A surface's normal in the box's own axes, up to rounding.
     #[inline(always)]
     fn own_normal<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        self.axes[i].map_or(surface.normal, |axes| along(&axes.map(Vec3::from), surface.normal))
+        self.axes[i].map_or(surface.normal, |axes| along(&three(axes, Vec3::splat), surface.normal))
     }
 }
 
@@ -130,40 +148,66 @@ fn turned(degrees: glam::Vec3) -> DMat3 {
 }
 
 impl Bounded for Cuboids {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = true;
+    #[inline(always)]
+    fn extent<L: Lanes>(cuboid: &CuboidShape<L>) -> [Vec3<L>; 2] {
+        cuboid.bounds
+    }
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
     }
 }
 
 impl Primitives for Cuboids {
-    type Record = CuboidRecord;
-    type Seen<L: Lanes> = SeenCuboid<L>;
+    type Shape<T: Number> = CuboidShape<T>;
+    type Variant = Turned;
+    type Seen<T: Copy> = SeenCuboid<T>;
     type Aim<L: Lanes> = Aim<L>;
+    type Named = Never;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> CuboidRecord {
-        let [min, max] = self.corners(i).map(Vec3::from);
-        CuboidRecord { min, max, axes: self.axes[i].map(|axes| axes.map(Vec3::from)) }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &CuboidRecord, origin: Vec3<L>) -> SeenCuboid<L> {
-        let [min, max] = [r.min, r.max].map(|corner| Vec3::splat(corner.into()));
-        let Some(axes) = r.axes else { return SeenCuboid { low: min - origin, high: max - origin, axes: None } };
+    fn shape(&self, i: usize) -> CuboidShape<f32> {
+        let [min, max] = self.corners(i).map(Vec3::from);
+        let axes = self.axes[i].unwrap_or([glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z]);
+        CuboidShape { min, max, axes: three(axes, Vec3::from), bounds: self.boxes[i].map(Vec3::from) }
+    }
+    #[inline(always)]
+    fn variant(&self, i: usize) -> Turned {
+        Turned(self.axes[i].is_some())
+    }
+    #[inline(always)]
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &CuboidShape<A>,
+        b: &CuboidShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> CuboidShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(cuboid: &CuboidShape<L>, turned: Turned, origin: Vec3<L>) -> SeenCuboid<L> {
+        let CuboidShape { min, max, axes, .. } = *cuboid;
+        if !turned.0 {
+            return SeenCuboid { low: min - origin, high: max - origin, axes };
+        }
         let half = (max - min) * L::splat(0.5);
         let q = along(&axes, origin - (min + max) * L::splat(0.5));
-        SeenCuboid { low: -half - q, high: half - q, axes: r.axes }
+        SeenCuboid { low: -half - q, high: half - q, axes }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenCuboid<f32>) -> SeenCuboid<L> {
-        SeenCuboid { low: Vec3::splat(s.low.into()), high: Vec3::splat(s.high.into()), axes: s.axes }
+    fn splat_seen<L: Lanes>(seen: &SeenCuboid<f32>) -> SeenCuboid<L> {
+        seen.map(L::splat)
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCuboid<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-        slabs(seen, aim, t_min, t_max)
+    fn nearest<L: Lanes>(seen: &SeenCuboid<L>, turned: Turned, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        slabs(seen, turned, aim, t_min, t_max)
     }
 
     /// The face is the one whose share of the box's size the point is farthest out by, x before y before z.
@@ -212,8 +256,8 @@ impl Primitives for Cuboids {
 
 /// See the module's text.
 #[inline(always)]
-pub fn slabs<L: Lanes>(seen: &SeenCuboid<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let turned = seen.axes.map(|axes| Aim::new(along(&axes, aim.direction)));
+pub fn slabs<L: Lanes>(seen: &SeenCuboid<L>, turned: Turned, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let turned = turned.0.then(|| Aim::new(along(&seen.axes, aim.direction)));
     let (enter, exit) = face::between(seen.low, seen.high, turned.as_ref().unwrap_or(aim));
     let t = enter.select(enter.gt(t_min), exit);
     let inside = enter.le(exit) & t.gt(t_min) & t.lt(t_max);

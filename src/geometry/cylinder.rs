@@ -19,8 +19,9 @@
 //! leaves the surface hits nothing there; one that enters, the far side; one that runs along the side in parallel to the
 //! axis, nothing. A tangent hits when the computed discriminant is not negative.
 
-use super::axial::{self, Crossing, slab};
-use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface, columns};
+use super::axial::{self, Crossing, Hull, slab};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3, angle, three};
 
 /// Squared sine of the angle to the axis below which a ray is parallel to it: 2⁻⁶⁰.
@@ -39,49 +40,41 @@ pub struct Cylinders {
     pub length: Vec<f32>,
     /// Twice the distance from the base's middle to the other rim; see [`Surface::reach`].
     pub reach: Vec<f32>,
-    /// Whether the ends are closed.
-    pub caps: Vec<bool>,
-    /// Which side of each is there.
-    pub sides: Vec<Sides>,
+    /// Whether the ends are closed, and which side is there.
+    pub hull: Vec<Hull>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    boxes: Vec<[glam::Vec3; 2]>,
     balls: Balls,
 }
 
-/// A cylinder as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct CylinderRecord {
-    /// The middle of the end at height 0.
-    pub base: Vec3<f32>,
-    /// T, B and A.
-    pub axes: [Vec3<f32>; 3],
-    /// Its radius.
-    pub radius: f32,
-    /// Its length.
-    pub length: f32,
-    /// Whether the ends are closed.
-    pub caps: bool,
-    /// Which side is there.
-    pub sides: Sides,
-}
-
-/// What a cylinder's test needs of it and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenCylinder<L> {
-    /// T, B and A.
-    pub axes: [Vec3<L>; 3],
-    /// p: the origin's coordinates along T and B.
-    pub p: [L; 2],
-    /// c = |p|² − r²: below zero inside the endless cylinder.
-    pub c: L,
-    /// r².
-    pub r2: L,
-    /// From the origin to the planes of base and apex, along A.
-    pub ends: [L; 2],
-    /// Whether the ends are closed.
-    pub caps: bool,
-    /// Which side is there.
-    pub sides: Sides,
+numbers! {
+    /// A cylinder as stored.
+    CylinderShape {
+        /// The middle of the end at height 0.
+        base: Vec3,
+        /// T, B and A.
+        axes: [Vec3; 3],
+        /// Its radius.
+        radius: T,
+        /// Its length.
+        length: T,
+        /// The box around it.
+        bounds: [Vec3; 2],
+    }
+    /// What a cylinder's test needs of it and of the rays' origin.
+    SeenCylinder {
+        /// T, B and A.
+        axes: [Vec3; 3],
+        /// p: the origin's coordinates along T and B.
+        p: [T; 2],
+        /// c = |p|² − r²: below zero inside the endless cylinder.
+        c: T,
+        /// r².
+        r2: T,
+        /// From the origin to the planes of base and apex, along A.
+        ends: [T; 2],
+    }
 }
 
 impl Cylinders {
@@ -93,16 +86,19 @@ impl Cylinders {
         self.radius.push(radius);
         self.length.push(length as f32);
         self.reach.push((2.0 * length.hypot(f64::from(radius))) as f32);
-        self.caps.push(caps);
-        self.sides.push(sides);
+        self.hull.push(Hull { caps, sides });
         self.material.push(material);
+        self.boxes.push(self.enclose(self.material.len() - 1));
         self.balls.push_around(self.bounds(self.material.len() - 1));
     }
 
     /// A box around cylinder `i`.
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
-        let apex = self.base(i) + self.axes[i][2] * self.length[i];
-        axial::bounds(self.axes[i][2], [(self.base(i), self.radius[i]), (apex, self.radius[i])])
+        self.boxes[i]
+    }
+
+    fn enclose(&self, i: usize) -> [glam::Vec3; 2] {
+        self.piece(i, 0, 1)
     }
 
     /// The middle of cylinder `i`'s end at height 0.
@@ -121,7 +117,7 @@ impl Cylinders {
     /// Where a point with these coordinates is nearer to an end of cylinder `i` than to its side.
     #[inline(always)]
     fn on_cap<L: Lanes>(&self, i: usize, [x, y, h]: [L; 3]) -> L::Mask {
-        if !self.caps[i] {
+        if !self.hull[i].caps {
             return L::Mask::from_bits(0);
         }
         let to_side = (x.mul_add(x, y * y).sqrt() - L::splat(self.radius[i])).abs();
@@ -130,55 +126,79 @@ impl Cylinders {
 }
 
 impl Bounded for Cylinders {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = true;
+    #[inline(always)]
+    fn extent<L: Lanes>(cylinder: &CylinderShape<L>) -> [Vec3<L>; 2] {
+        cylinder.bounds
+    }
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
+    }
+    fn pieces(&self, i: usize) -> u32 {
+        axial::pieces(|k, n| self.piece(i, k, n))
+    }
+    fn piece(&self, i: usize, k: u32, n: u32) -> [glam::Vec3; 2] {
+        let end = |k: u32| {
+            let height = self.length[i] * (k as f32 / n as f32);
+            (self.base(i) + self.axes[i][2] * height, self.radius[i])
+        };
+        axial::bounds(self.axes[i][2], [end(k), end(k + 1)])
     }
 }
 
 impl Primitives for Cylinders {
-    type Record = CylinderRecord;
-    type Seen<L: Lanes> = SeenCylinder<L>;
+    type Shape<T: Number> = CylinderShape<T>;
+    type Variant = Hull;
+    type Seen<T: Copy> = SeenCylinder<T>;
     type Aim<L: Lanes> = Vec3<L>;
+    type Named = Never;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
+    }
     #[inline(always)]
-    fn record(&self, i: usize) -> CylinderRecord {
-        CylinderRecord {
+    fn shape(&self, i: usize) -> CylinderShape<f32> {
+        CylinderShape {
             base: self.base(i).into(),
             axes: three(self.axes[i], Vec3::from),
             radius: self.radius[i],
             length: self.length[i],
-            caps: self.caps[i],
-            sides: self.sides[i],
+            bounds: self.boxes[i].map(Vec3::from),
         }
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &CylinderRecord, origin: Vec3<L>) -> SeenCylinder<L> {
-        let f = origin - Vec3::splat(r.base.into());
-        let axes = three(r.axes, |a| Vec3::splat(a.into()));
+    fn variant(&self, i: usize) -> Hull {
+        self.hull[i]
+    }
+    #[inline(always)]
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &CylinderShape<A>,
+        b: &CylinderShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> CylinderShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(cylinder: &CylinderShape<L>, _: Hull, origin: Vec3<L>) -> SeenCylinder<L> {
+        let CylinderShape { base, axes, radius, length, .. } = *cylinder;
+        let f = origin - base;
         let [x, y, h] = three(axes, |a| a.dot(f));
-        let r2 = L::splat(r.radius * r.radius);
+        let r2 = radius * radius;
         let c = x.mul_add(x, y * y) - r2;
-        SeenCylinder { axes, p: [x, y], c, r2, ends: [-h, L::splat(r.length) - h], caps: r.caps, sides: r.sides }
+        SeenCylinder { axes, p: [x, y], c, r2, ends: [-h, length - h] }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenCylinder<f32>) -> SeenCylinder<L> {
-        SeenCylinder {
-            axes: three(s.axes, |a| Vec3::splat(a.into())),
-            p: s.p.map(L::splat),
-            c: L::splat(s.c),
-            r2: L::splat(s.r2),
-            ends: s.ends.map(L::splat),
-            caps: s.caps,
-            sides: s.sides,
-        }
+    fn splat_seen<L: Lanes>(seen: &SeenCylinder<f32>) -> SeenCylinder<L> {
+        seen.map(L::splat)
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenCylinder<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        stable(seen, *d, if SIDED { seen.sides } else { Sides::Both }, t_min, t_max)
+    fn nearest<L: Lanes>(seen: &SeenCylinder<L>, hull: Hull, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        stable(seen, *d, hull, t_min, t_max)
     }
 
     #[inline(always)]
@@ -212,8 +232,8 @@ impl Primitives for Cylinders {
 
 /// See the module's text.
 #[inline(always)]
-pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, sides: Sides, t_min: L, t_max: L) -> Nearest<L> {
-    let SeenCylinder { axes, p: [px, py], c, r2, ends: [low, high], caps, .. } = *seen;
+pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, hull: Hull, t_min: L, t_max: L) -> LaneHits<L> {
+    let SeenCylinder { axes, p: [px, py], c, r2, ends: [low, high] } = *seen;
     let [x, y, along] = three(axes, |a| a.dot(direction));
     let a = x.mul_add(x, y * y);
     let per_length = L::splat(1.0) / a.sqrt();
@@ -237,7 +257,7 @@ pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, sides: Sides
     let enter = (-far).select(parallel, other.select(ahead, q) * per_length);
     let exit = far.select(parallel, q.select(ahead, other) * per_length);
     let (start, end) = slab(low, high, along);
-    let crossing = if caps {
+    let crossing = if hull.caps {
         let (enter, exit) = (enter.max(start), exit.min(end));
         let met = possible & enter.le(exit);
         Crossing { enter, exit, entered: met, left: met }
@@ -245,7 +265,7 @@ pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, sides: Sides
         let between = |t: L| possible & t.ge(start) & t.le(end);
         Crossing { enter, exit, entered: between(enter), left: between(exit) }
     };
-    crossing.nearest(sides, t_min, t_max)
+    crossing.nearest(hull.sides, t_min, t_max)
 }
 
 #[cfg(test)]

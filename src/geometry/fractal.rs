@@ -32,7 +32,8 @@
 
 use super::face;
 pub use super::face::Aim;
-use super::{Balls, Bounded, Nearest, Primitives, Surface, columns};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// ε, the unit roundoff.
@@ -52,68 +53,76 @@ pub struct Fractals {
     pub iterations: Vec<u32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    boxes: Vec<[glam::Vec3; 2]>,
     balls: Balls,
 }
 
-/// A fractal as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct FractalRecord {
-    /// The cube's middle.
-    pub center: Vec3<f32>,
-    /// Half its edge.
-    pub radius: f32,
-    /// 0 to 8.
-    pub iterations: u32,
+numbers! {
+    /// A fractal as stored.
+    FractalShape {
+        /// The cube's middle.
+        center: Vec3,
+        /// Half its edge.
+        radius: T,
+        /// The box around it.
+        bounds: [Vec3; 2],
+    }
+    /// What a fractal's test needs of it and of the rays' origin.
+    SeenFractal {
+        /// f = o − center.
+        f: Vec3,
+        /// Half the cube's edge.
+        radius: T,
+    }
 }
 
-/// What a fractal's test needs of it and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenFractal<L> {
-    /// f = o − center.
-    pub f: Vec3<L>,
-    /// Half the cube's edge.
-    pub radius: f32,
-    /// 0 to 8.
-    pub iterations: u32,
+/// How often a fractal's cubes are cut, 0 to 8.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Iterations(pub u32);
+
+impl Variant for Iterations {
+    fn code(self) -> u8 {
+        self.0 as u8
+    }
 }
 
 /// The cells of a fractal.
 #[derive(Clone, Copy, Debug)]
-struct Grid {
-    radius: f32,
+struct Grid<L> {
+    radius: L,
     iterations: u32,
     /// N.
     cells: f32,
 }
 
-impl Grid {
+impl<L: Lanes> Grid<L> {
     #[inline(always)]
-    fn new(radius: f32, iterations: u32) -> Self {
+    fn new(radius: L, iterations: u32) -> Self {
         Self { radius, iterations, cells: WIDTHS[iterations as usize] }
     }
 
     /// Cells a world unit.
     #[inline(always)]
-    fn per_unit(&self) -> f32 {
-        self.cells / (2.0 * self.radius)
+    fn per_unit(&self) -> L {
+        L::splat(self.cells) / (self.radius + self.radius)
     }
 
     /// The outermost cell, (N − 1)/2.
     #[inline(always)]
-    fn last<L: Lanes>(&self) -> L {
+    fn last(&self) -> L {
         L::splat(0.5 * (self.cells - 1.0))
     }
 
     /// A coordinate from the centre in cells: cell j reaches from j to j + 1. Off by 2 ε N.
     #[inline(always)]
-    fn place<L: Lanes>(&self, q: Vec3<L>) -> Vec3<L> {
-        q.mul_add(L::splat(self.per_unit()), Vec3::splat(glam::Vec3::splat(0.5)))
+    fn place(&self, q: Vec3<L>) -> Vec3<L> {
+        q.mul_add(self.per_unit(), Vec3::splat(glam::Vec3::splat(0.5)))
     }
 
     /// The cells at such coordinates, or the nearest.
     #[inline(always)]
-    fn cell<L: Lanes>(&self, place: Vec3<L>) -> Vec3<L> {
-        let last = self.last::<L>();
+    fn cell(&self, place: Vec3<L>) -> Vec3<L> {
+        let last = self.last();
         let cell = |x: L| x.floor().max(-last).min(last);
         Vec3::new(cell(place.x), cell(place.y), cell(place.z))
     }
@@ -121,13 +130,13 @@ impl Grid {
     /// The world coordinate of the plane below cell j, from the centre; off by 2 ε of itself, and exact at the cube's
     /// faces.
     #[inline(always)]
-    fn plane<L: Lanes>(&self, j: L) -> L {
-        (j + j - L::splat(1.0)) / L::splat(self.cells) * L::splat(self.radius)
+    fn plane(&self, j: L) -> L {
+        (j + j - L::splat(1.0)) / L::splat(self.cells) * self.radius
     }
 
     /// V of the module's text: how far the void, or below zero the solid, reaches from the middle of a cell, in cells.
     #[inline(always)]
-    fn clearance<L: Lanes>(&self, cell: Vec3<L>) -> L {
+    fn clearance(&self, cell: Vec3<L>) -> L {
         let (mut x, mut y, mut z) = (cell.x.abs(), cell.y.abs(), cell.z.abs());
         let mut most = L::splat(f32::NEG_INFINITY);
         for &width in WIDTHS[..self.iterations as usize].iter().rev() {
@@ -145,7 +154,7 @@ impl Grid {
 
     /// Where a cell of the cube, or one beside it, is solid.
     #[inline(always)]
-    fn solid<L: Lanes>(&self, cell: Vec3<L>) -> L::Mask {
+    fn solid(&self, cell: Vec3<L>) -> L::Mask {
         self.clearance(cell).lt(L::zero()) & cell.max_abs().le(self.last())
     }
 }
@@ -157,6 +166,7 @@ impl Fractals {
         self.radius.push(radius);
         self.iterations.push(iterations.min(WIDTHS.len() as u32 - 1));
         self.material.push(material);
+        self.boxes.push(self.enclose(self.material.len() - 1));
         self.balls.push_around(self.bounds(self.material.len() - 1));
     }
 
@@ -168,6 +178,10 @@ impl Fractals {
 
     /// A box around fractal `i`.
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
+    }
+
+    fn enclose(&self, i: usize) -> [glam::Vec3; 2] {
         let (center, radius) = (self.center(i), self.radius[i]);
         // The corners are rounded.
         let out = radius + ROUNDOFF * 2.0 * (center.abs().max_element() + radius);
@@ -176,35 +190,65 @@ impl Fractals {
 }
 
 impl Bounded for Fractals {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = true;
+    #[inline(always)]
+    fn extent<L: Lanes>(fractal: &FractalShape<L>) -> [Vec3<L>; 2] {
+        fractal.bounds
+    }
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
     }
 }
 
 impl Primitives for Fractals {
-    type Record = FractalRecord;
-    type Seen<L: Lanes> = SeenFractal<L>;
+    type Shape<T: Number> = FractalShape<T>;
+    type Variant = Iterations;
+    type Seen<T: Copy> = SeenFractal<T>;
     type Aim<L: Lanes> = Aim<L>;
+    type Named = Never;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> FractalRecord {
-        FractalRecord { center: self.center(i).into(), radius: self.radius[i], iterations: self.iterations[i] }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &FractalRecord, origin: Vec3<L>) -> SeenFractal<L> {
-        SeenFractal { f: origin - Vec3::splat(r.center.into()), radius: r.radius, iterations: r.iterations }
+    fn shape(&self, i: usize) -> FractalShape<f32> {
+        let bounds = self.boxes[i].map(Vec3::from);
+        FractalShape { center: self.center(i).into(), radius: self.radius[i], bounds }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenFractal<f32>) -> SeenFractal<L> {
-        SeenFractal { f: Vec3::splat(s.f.into()), radius: s.radius, iterations: s.iterations }
+    fn variant(&self, i: usize) -> Iterations {
+        Iterations(self.iterations[i])
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenFractal<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-        sphere_trace(seen, aim, t_min, t_max)
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &FractalShape<A>,
+        b: &FractalShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> FractalShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(fractal: &FractalShape<L>, _: Iterations, origin: Vec3<L>) -> SeenFractal<L> {
+        SeenFractal { f: origin - fractal.center, radius: fractal.radius }
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &SeenFractal<f32>) -> SeenFractal<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(
+        seen: &SeenFractal<L>,
+        iterations: Iterations,
+        aim: &Aim<L>,
+        t_min: L,
+        t_max: L,
+    ) -> LaneHits<L> {
+        sphere_trace(seen, iterations, aim, t_min, t_max)
     }
 
     /// The face is, of the planes of the grid next to the point, the nearest with a solid cell on one side only.
@@ -229,7 +273,7 @@ impl Primitives for Fractals {
 #[inline(never)]
 fn face_near<L: Lanes>(fractals: &Fractals, i: usize, point: Vec3<L>) -> Surface<L> {
     let (center, radius) = (fractals.center(i), fractals.radius[i]);
-    let grid = Grid::new(radius, fractals.iterations[i]);
+    let grid = Grid::new(L::splat(radius), fractals.iterations[i]);
     let (one, half) = (L::splat(1.0), L::splat(0.5));
     let place = grid.place(point - Vec3::splat(center));
     let cell = grid.cell(place);
@@ -255,7 +299,8 @@ fn face_near<L: Lanes>(fractals: &Fractals, i: usize, point: Vec3<L>) -> Surface
     let lost = solid & !((face_x & on[0]) | (face_y & on[1]) | (face_z & on[2]));
     let cell = if lost.any() { out_of_corner(&grid, cell, step, [x, y, z], on, lost) } else { cell };
     let most = center.abs() + radius;
-    let margin = (most * (4.0 * ROUNDOFF) + 8.0 * ROUNDOFF * radius).min(glam::Vec3::splat(0.25 / grid.per_unit()));
+    let margin = (most * (4.0 * ROUNDOFF) + 8.0 * ROUNDOFF * radius)
+        .min(glam::Vec3::splat(0.25 / Grid::new(radius, fractals.iterations[i]).per_unit()));
     let put = |p: L, cell: L, step: L, on: L::Mask, c: f32, margin: f32| {
         let (c, margin) = (L::splat(c), L::splat(margin));
         let (low, high) = (c + grid.plane(cell), c + grid.plane(cell + one));
@@ -281,7 +326,7 @@ const BEHIND: f32 = 1.0 / 16.0;
 /// there is void across the nearest one from there.
 #[inline(never)]
 fn out_of_corner<L: Lanes>(
-    grid: &Grid,
+    grid: &Grid<L>,
     cell: Vec3<L>,
     step: Vec3<L>,
     [x, y, z]: [L; 3],
@@ -301,7 +346,7 @@ fn out_of_corner<L: Lanes>(
 /// A packet on its way through the cube, mirrored so that no direction is below zero.
 #[derive(Clone, Copy, Debug)]
 struct March<L: Lanes> {
-    grid: Grid,
+    grid: Grid<L>,
     /// From the cube's middle.
     origin: Vec3<L>,
     /// 1 / d.
@@ -321,14 +366,20 @@ struct March<L: Lanes> {
 
 /// See the module's text.
 #[inline(always)]
-pub fn sphere_trace<L: Lanes>(seen: &SeenFractal<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let radius = Vec3::splat(glam::Vec3::splat(seen.radius));
+pub fn sphere_trace<L: Lanes>(
+    seen: &SeenFractal<L>,
+    iterations: Iterations,
+    aim: &Aim<L>,
+    t_min: L,
+    t_max: L,
+) -> LaneHits<L> {
+    let radius = Vec3::new(seen.radius, seen.radius, seen.radius);
     let (enter, exit) = face::between(-radius - seen.f, radius - seen.f, aim);
     let open = enter.le(exit) & exit.gt(t_min) & enter.lt(t_max);
     if !open.any() {
         return None;
     }
-    let mut march = March::new(seen, aim, enter, t_min, open);
+    let mut march = March::new(seen, iterations, aim, enter, t_min, open);
     march.run(t_min, t_max);
     let inside = march.found & march.t.lt(t_max);
     inside.any().then_some((march.t, inside))
@@ -337,8 +388,8 @@ pub fn sphere_trace<L: Lanes>(seen: &SeenFractal<L>, aim: &Aim<L>, t_min: L, t_m
 impl<L: Lanes> March<L> {
     /// Where rays enter the cube, or at `t_min` inside it.
     #[inline(always)]
-    fn new(seen: &SeenFractal<L>, aim: &Aim<L>, enter: L, t_min: L, open: L::Mask) -> Self {
-        let grid = Grid::new(seen.radius, seen.iterations);
+    fn new(seen: &SeenFractal<L>, iterations: Iterations, aim: &Aim<L>, enter: L, t_min: L, open: L::Mask) -> Self {
+        let grid = Grid::new(seen.radius, iterations.0);
         let d = aim.direction;
         let origin = face::by_sign(d, seen.f, -seen.f);
         let direction = Vec3::new(d.x.abs(), d.y.abs(), d.z.abs());
@@ -346,10 +397,10 @@ impl<L: Lanes> March<L> {
         let begin = enter.select(outside, t_min);
         let start = grid.place(direction.mul_add(begin, origin));
         // On the face by which a ray enters, its first cell is known without rounding.
-        let first = L::splat(seen.radius);
+        let first = seen.radius;
         let at_face = |o: L, inverse: L| outside & ((-first - o) * inverse).eq(enter);
         let at = [at_face(origin.x, aim.inverse.x), at_face(origin.y, aim.inverse.y), at_face(origin.z, aim.inverse.z)];
-        let least = -grid.last::<L>();
+        let least = -grid.last();
         let cell = face::by_axis(at, Vec3::new(least, least, least), grid.cell(start));
         let clearance = grid.clearance(cell);
         let found = open & outside & clearance.lt(L::zero());
@@ -358,7 +409,7 @@ impl<L: Lanes> March<L> {
             origin,
             inverse: aim.inverse,
             start,
-            direction: direction * L::splat(grid.per_unit()),
+            direction: direction * grid.per_unit(),
             cell,
             clearance,
             open: open & !found,
@@ -370,7 +421,7 @@ impl<L: Lanes> March<L> {
     /// Marches all lanes until they hit, leave, or pass `t_max`.
     #[inline(never)]
     fn run(&mut self, t_min: L, t_max: L) {
-        let unit = L::splat(1.0 / self.grid.per_unit());
+        let unit = L::splat(1.0) / self.grid.per_unit();
         let infinite = L::splat(f32::INFINITY);
         // A direction of 0, or so little that its inverse overflows, never reaches a plane.
         let inverse = self.inverse * unit;
@@ -389,7 +440,7 @@ impl<L: Lanes> March<L> {
     /// To the border of the cube about the cell's middle in which nothing changes.
     #[inline(always)]
     fn step(&mut self, start: Vec3<L>, inverse: Vec3<L>, t_min: L, t_max: L) {
-        let end = self.grid.last::<L>() + L::splat(1.0);
+        let end = self.grid.last() + L::splat(1.0);
         let reach = self.clearance.abs() + L::splat(0.5);
         let plane = |j: L| (j + reach).min(end);
         let plane = Vec3::new(plane(self.cell.x), plane(self.cell.y), plane(self.cell.z));

@@ -17,8 +17,8 @@ pub fn frame(n: Vec3) -> [Vec3; 2] {
 
 /// A vector's coordinates along three axes.
 #[inline(always)]
-pub(super) fn along<L: Lanes>(axes: &[impl Into<Vec3> + Copy; 3], v: Lane3<L>) -> Lane3<L> {
-    let [x, y, z] = three(*axes, |axis| Lane3::splat(axis.into()).dot(v));
+pub(super) fn along<L: Lanes>(axes: &[Lane3<L>; 3], v: Lane3<L>) -> Lane3<L> {
+    let [x, y, z] = three(*axes, |axis| axis.dot(v));
     Lane3::new(x, y, z)
 }
 

@@ -1,7 +1,7 @@
 //! One file per primitive: storage, tests by named methods, surface point and normal, texture coordinates.
 //!
-//! A test takes what depends on the ray's origin alone apart (`Seen…`), since rays that share their origin share
-//! it too; computed once for a batch or in every lane, it is the same arithmetic and so the same bits.
+//! A test takes what depends on the ray's origin alone apart ([`Primitives::Seen`]), since rays that share their origin
+//! share it too; computed once for a batch or in every lane, it is the same arithmetic and so the same bits.
 
 mod axial;
 #[cfg(test)]
@@ -16,6 +16,7 @@ mod flat;
 pub mod fractal;
 mod frame;
 pub mod methods;
+pub(crate) mod numbers;
 pub mod plane;
 pub mod quad;
 pub mod sphere;
@@ -32,14 +33,14 @@ pub use fractal::Fractals;
 pub use frame::frame;
 pub use plane::Planes;
 pub use quad::Quads;
-pub use sphere::{SphereRecord, Spheres};
+pub use sphere::Spheres;
 pub use torus::Tori;
 pub use triangle::Triangles;
 
 use crate::math::{Lanes, Vec3};
 
 /// The nearest distance inside the interval, where the mask is true; `None` when no lane has one.
-pub type Nearest<L> = Option<(L, <L as Lanes>::Mask)>;
+pub type LaneHits<L> = Option<(L, <L as Lanes>::Mask)>;
 
 /// Which side of a surface is there. A ray that comes from the other passes through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -65,14 +66,56 @@ pub struct Surface<L> {
     pub reach: f32,
 }
 
+/// What a primitive's numbers may be: one, lanes, or a column of a block.
+pub trait Number: Copy + Send + Sync {}
+
+impl<T: Copy + Send + Sync> Number for T {}
+
+/// What primitives of one kind may differ in beside their numbers: all of a block have it in common, so that a test
+/// chooses once for all lanes.
+pub trait Variant: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync {
+    /// A number below 32, another for each.
+    fn code(self) -> u8;
+}
+
+/// None.
+impl Variant for () {
+    fn code(self) -> u8 {
+        0
+    }
+}
+
+impl Variant for Sides {
+    fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// What a batch's bounds leave primitives of a kind out by.
+pub enum Cull<'a> {
+    /// Balls around them.
+    Balls(&'a Balls),
+    /// Sides of planes.
+    Planes(&'a Planes),
+    /// Sides of triangles and of planes through their edges.
+    Triangles(&'a Triangles),
+}
+
 /// Primitives of one kind in SoA storage, as the queries and the shading see them; i counts from 0 within the kind.
-pub trait Primitives {
-    /// What the test needs of a primitive, as stored.
-    type Record: Copy;
-    /// The same as seen from the rays' origins.
-    type Seen<L: Lanes>: Copy;
+///
+/// The kind's default test is part of it. All functions work lane by lane, whether the lanes are rays or primitives, so
+/// that one ray against eight primitives gives the same bits as a packet against each.
+pub trait Primitives: Sized {
+    /// The numbers that the test needs of a primitive.
+    type Shape<T: Number>: Number;
+    /// What it needs beside numbers; that of the plainest primitives is the default.
+    type Variant: Variant;
+    /// What remains to be known as seen from the rays' origin.
+    type Seen<T: Copy>: Copy;
     /// What the test needs of the rays' directions; the directions themselves for most.
     type Aim<L: Lanes>: Copy + From<Vec3<L>>;
+    /// Other methods for the same test; [`Never`] where there are none.
+    type Named: Test<Self>;
 
     /// The primitives' materials, as indices.
     fn materials(&self) -> &[u32];
@@ -90,22 +133,62 @@ pub trait Primitives {
     fn material(&self, i: usize) -> u32 {
         self.materials()[i]
     }
+    /// What a batch's bounds leave primitives out by.
+    fn cull(&self) -> Cull<'_>;
 
-    /// Primitive `i` as stored.
-    fn record(&self, i: usize) -> Self::Record;
-    /// A primitive as seen from `origin`.
-    fn seen<L: Lanes>(record: &Self::Record, origin: Vec3<L>) -> Self::Seen<L>;
+    /// Primitive `i`'s numbers.
+    fn shape(&self, i: usize) -> Self::Shape<f32>;
+    /// Primitive `i`'s variant.
+    fn variant(&self, i: usize) -> Self::Variant;
+    /// Number by number, from two shapes.
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &Self::Shape<A>,
+        b: &Self::Shape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> Self::Shape<C>;
+    /// Number by number.
+    #[inline(always)]
+    fn map<A: Number, B: Number>(shape: &Self::Shape<A>, f: impl Fn(A) -> B) -> Self::Shape<B> {
+        Self::zip(shape, shape, |a, _| f(a))
+    }
+    /// The same primitive in every lane.
+    #[inline(always)]
+    fn splat<L: Lanes>(shape: &Self::Shape<f32>) -> Self::Shape<L> {
+        Self::map(shape, L::splat)
+    }
+
+    /// Primitives as seen from `origin`.
+    fn seen<L: Lanes>(shape: &Self::Shape<L>, variant: Self::Variant, origin: Vec3<L>) -> Self::Seen<L>;
     /// The same view in every lane.
-    fn splat<L: Lanes>(seen: &Self::Seen<f32>) -> Self::Seen<L>;
+    fn splat_seen<L: Lanes>(seen: &Self::Seen<f32>) -> Self::Seen<L>;
     /// Prepares unit directions, once for all primitives of the kind.
     #[inline(always)]
     fn aim<L: Lanes>(direction: Vec3<L>) -> Self::Aim<L> {
         direction.into()
     }
-    /// The default test: the nearest distance inside (`t_min`, `t_max`). Without `SIDED` all are seen from both sides,
-    /// whatever their [`Sides`].
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &Self::Seen<L>, aim: &Self::Aim<L>, t_min: L, t_max: L)
-    -> Nearest<L>;
+    /// The default test: the nearest distance inside (`t_min`, `t_max`).
+    fn nearest<L: Lanes>(
+        seen: &Self::Seen<L>,
+        variant: Self::Variant,
+        aim: &Self::Aim<L>,
+        t_min: L,
+        t_max: L,
+    ) -> LaneHits<L>;
+    /// The method that was asked for, where that is not the default.
+    #[inline(always)]
+    fn named(&self) -> Option<Self::Named> {
+        None
+    }
+
+    /// Primitive `i` against rays, by the kind's method: the nearest distance inside (`t_min`, `t_max`).
+    #[inline(always)]
+    fn test<L: Lanes>(&self, i: usize, origin: Vec3<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        let (shape, variant, aim) = (Self::splat(&self.shape(i)), self.variant(i), Self::aim(direction));
+        match self.named() {
+            None => Self::nearest(&Self::seen(&shape, variant, origin), variant, &aim, t_min, t_max),
+            Some(test) => test.nearest(&test.seen(&shape, variant, origin), variant, &aim, t_min, t_max),
+        }
+    }
 
     /// The surface of primitive `i` at `point`, which lies near it.
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L>;
@@ -115,8 +198,88 @@ pub trait Primitives {
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L>;
 }
 
-/// Primitives that a ball holds, each.
+/// Primitives that have an end, so that a tree can hold them.
 pub trait Bounded: Primitives {
-    /// A ball around each primitive.
-    fn balls(&self) -> &Balls;
+    /// Whether hits count only within the box around the primitive, widened by 32 ε of its farthest corner's distance:
+    /// for tests that say little about their rounding. (Triangles see to that themselves.)
+    const BOXED: bool;
+    /// The least and the greatest corner of a box around a primitive.
+    fn extent<L: Lanes>(shape: &Self::Shape<L>) -> [Vec3<L>; 2];
+    /// The same of primitive `i`.
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        let [min, max] = Self::extent(&self.shape(i));
+        [min.into(), max.into()]
+    }
+    /// Into how many pieces a tree had best cut primitive `i`: more than one for what is long and slanted, whose box is
+    /// mostly empty. Only for tests whose hits all lie on the primitive, but for the margin of a tree's boxes.
+    #[inline(always)]
+    fn pieces(&self, _: usize) -> u32 {
+        1
+    }
+    /// A box around piece `k` of `n` of primitive `i`.
+    fn piece(&self, i: usize, _k: u32, _n: u32) -> [glam::Vec3; 2] {
+        self.around(i)
+    }
+}
+
+/// A test of a kind's primitives by one method.
+pub trait Test<K: Primitives>: Copy {
+    /// What it needs of a primitive as seen from the rays' origin.
+    type Seen<T: Copy>: Copy;
+    /// Primitives as seen from `origin`.
+    fn seen<L: Lanes>(self, shape: &K::Shape<L>, variant: K::Variant, origin: Vec3<L>) -> Self::Seen<L>;
+    /// The same view in every lane.
+    fn splat_seen<L: Lanes>(seen: &Self::Seen<f32>) -> Self::Seen<L>;
+    /// The nearest distance inside (`t_min`, `t_max`).
+    fn nearest<L: Lanes>(
+        self,
+        seen: &Self::Seen<L>,
+        variant: K::Variant,
+        aim: &K::Aim<L>,
+        t_min: L,
+        t_max: L,
+    ) -> LaneHits<L>;
+}
+
+/// The default method of any kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Standard;
+
+impl<K: Primitives> Test<K> for Standard {
+    type Seen<T: Copy> = K::Seen<T>;
+    #[inline(always)]
+    fn seen<L: Lanes>(self, shape: &K::Shape<L>, variant: K::Variant, origin: Vec3<L>) -> K::Seen<L> {
+        K::seen(shape, variant, origin)
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &K::Seen<f32>) -> K::Seen<L> {
+        K::splat_seen(seen)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(
+        self,
+        seen: &K::Seen<L>,
+        variant: K::Variant,
+        aim: &K::Aim<L>,
+        t_min: L,
+        t_max: L,
+    ) -> LaneHits<L> {
+        K::nearest(seen, variant, aim, t_min, t_max)
+    }
+}
+
+/// The other method of a kind that has only one: there is no such value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Never {}
+
+impl<K: Primitives> Test<K> for Never {
+    type Seen<T: Copy> = ();
+    fn seen<L: Lanes>(self, _: &K::Shape<L>, _: K::Variant, _: Vec3<L>) {
+        match self {}
+    }
+    fn splat_seen<L: Lanes>(_: &()) {}
+    fn nearest<L: Lanes>(self, _: &(), _: K::Variant, _: &K::Aim<L>, _: L, _: L) -> LaneHits<L> {
+        match self {}
+    }
 }

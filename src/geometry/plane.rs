@@ -6,7 +6,8 @@
 //! of n·d.
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
-use super::{Nearest, Primitives, Surface, columns, frame};
+use super::numbers::numbers;
+use super::{Cull, LaneHits, Never, Number, Primitives, Surface, columns, frame};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// Planes, column by column.
@@ -33,22 +34,21 @@ pub struct UnitPlane {
     pub axes: [glam::Vec3; 2],
 }
 
-/// A plane as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct PlaneRecord {
-    /// Its normal, its greatest component from 1 to 2.
-    pub normal: Vec3<f32>,
-    /// Its offset.
-    pub distance: f32,
-}
-
-/// What a plane's test needs of it and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenPlane<L> {
-    /// The normal.
-    pub normal: Vec3<L>,
-    /// −(n·o + distance).
-    pub height: L,
+numbers! {
+    /// A plane as stored.
+    PlaneShape {
+        /// Its normal, its greatest component from 1 to 2.
+        normal: Vec3,
+        /// Its offset.
+        distance: T,
+    }
+    /// What a plane's test needs of it and of the rays' origin.
+    SeenPlane {
+        /// The normal.
+        normal: Vec3,
+        /// −(n·o + distance).
+        height: T,
+    }
 }
 
 impl Planes {
@@ -77,28 +77,42 @@ impl Planes {
 }
 
 impl Primitives for Planes {
-    type Record = PlaneRecord;
-    type Seen<L: Lanes> = SeenPlane<L>;
+    type Shape<T: Number> = PlaneShape<T>;
+    type Variant = ();
+    type Seen<T: Copy> = SeenPlane<T>;
     type Aim<L: Lanes> = Vec3<L>;
+    type Named = Never;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> PlaneRecord {
-        PlaneRecord { normal: self.normal(i).into(), distance: self.distance[i] }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Planes(self)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &PlaneRecord, origin: Vec3<L>) -> SeenPlane<L> {
-        SeenPlane::new(Vec3::splat(r.normal.into()), L::splat(r.distance), origin)
+    fn shape(&self, i: usize) -> PlaneShape<f32> {
+        PlaneShape { normal: self.normal(i).into(), distance: self.distance[i] }
+    }
+    fn variant(&self, _: usize) {}
+    #[inline(always)]
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &PlaneShape<A>,
+        b: &PlaneShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> PlaneShape<C> {
+        a.zip(b, f)
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenPlane<f32>) -> SeenPlane<L> {
-        SeenPlane { normal: Vec3::splat(s.normal.into()), height: L::splat(s.height) }
+    fn seen<L: Lanes>(plane: &PlaneShape<L>, (): (), origin: Vec3<L>) -> SeenPlane<L> {
+        SeenPlane::new(plane.normal, plane.distance, origin)
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenPlane<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    fn splat_seen<L: Lanes>(seen: &SeenPlane<f32>) -> SeenPlane<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(seen: &SeenPlane<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
         nearest(seen, *d, t_min, t_max)
     }
 
@@ -122,7 +136,7 @@ impl Primitives for Planes {
 
 /// The plane's distance along `direction`, inside (`t_min`, `t_max`).
 #[inline(always)]
-pub fn nearest<L: Lanes>(seen: &SeenPlane<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn nearest<L: Lanes>(seen: &SeenPlane<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let t = seen.height / seen.normal.dot(direction);
     let inside = t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
@@ -144,7 +158,7 @@ mod tests {
     fn hit(normal: glam::Vec3, distance: f32, origin: glam::Vec3, direction: glam::Vec3) -> Option<f32> {
         let mut planes = Planes::default();
         planes.push(normal, distance, 0);
-        nearest(&Planes::seen(&planes.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
+        planes.test::<f32>(0, origin.into(), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
 
     #[test]

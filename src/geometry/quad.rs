@@ -4,7 +4,8 @@
 //! 8 ε (|o − corner| + longest edge) / sin of the angle between the edges. Edges belong to the quad. A ray in its plane
 //! misses it.
 
-use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, flat};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, columns, flat};
 use crate::math::{LaneMask, Lanes, Vec3, three};
 
 /// Quads, column by column.
@@ -22,31 +23,33 @@ pub struct Quads {
     pub reach: Vec<f32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
+    boxes: Vec<[glam::Vec3; 2]>,
     balls: Balls,
 }
 
-/// A quad as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct QuadRecord {
-    /// Its corner.
-    pub corner: Vec3<f32>,
-    /// Its first edge.
-    pub u: Vec3<f32>,
-    /// Its second edge.
-    pub v: Vec3<f32>,
-}
-
-/// What a quad's test needs of it and of the rays' origin, with T = o − corner.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenQuad<L> {
-    /// N = u × v.
-    pub n: Vec3<L>,
-    /// T × v.
-    pub u: Vec3<L>,
-    /// u × T.
-    pub v: Vec3<L>,
-    /// −T·N.
-    pub height: L,
+numbers! {
+    /// A quad as stored.
+    QuadShape {
+        /// Its corner.
+        corner: Vec3,
+        /// Its first edge.
+        u: Vec3,
+        /// Its second edge.
+        v: Vec3,
+        /// The box around it.
+        bounds: [Vec3; 2],
+    }
+    /// What a quad's test needs of it and of the rays' origin, with T = o − corner.
+    SeenQuad {
+        /// N = u × v.
+        n: Vec3,
+        /// T × v.
+        u: Vec3,
+        /// u × T.
+        v: Vec3,
+        /// −T·N.
+        height: T,
+    }
 }
 
 impl Quads {
@@ -60,11 +63,16 @@ impl Quads {
         let n = u.cross(v);
         self.unit.push(n.normalize().as_vec3());
         self.reach.push((u.length().max(v.length()) * (u.length() * v.length() / n.length())) as f32);
+        self.boxes.push(self.enclose(self.material.len() - 1));
         self.balls.push_around(self.bounds(self.material.len() - 1));
     }
 
     /// A box around quad `i`.
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
+    }
+
+    fn enclose(&self, i: usize) -> [glam::Vec3; 2] {
         let [corner, u, v] = self.corner_and_edges(i);
         let corners = [corner, corner + u, corner + v, corner + u + v];
         let around =
@@ -82,39 +90,54 @@ impl Quads {
 }
 
 impl Bounded for Quads {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = true;
+    #[inline(always)]
+    fn extent<L: Lanes>(quad: &QuadShape<L>) -> [Vec3<L>; 2] {
+        quad.bounds
+    }
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
     }
 }
 
 impl Primitives for Quads {
-    type Record = QuadRecord;
-    type Seen<L: Lanes> = SeenQuad<L>;
+    type Shape<T: Number> = QuadShape<T>;
+    type Variant = ();
+    type Seen<T: Copy> = SeenQuad<T>;
     type Aim<L: Lanes> = Vec3<L>;
+    type Named = Never;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> QuadRecord {
-        let [corner, u, v] = self.corner_and_edges(i).map(Vec3::from);
-        QuadRecord { corner, u, v }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &QuadRecord, origin: Vec3<L>) -> SeenQuad<L> {
-        let [corner, u, v] = three([r.corner, r.u, r.v], |a| Vec3::splat(a.into()));
+    fn shape(&self, i: usize) -> QuadShape<f32> {
+        let [corner, u, v] = three(self.corner_and_edges(i), Vec3::from);
+        QuadShape { corner, u, v, bounds: self.boxes[i].map(Vec3::from) }
+    }
+    fn variant(&self, _: usize) {}
+    #[inline(always)]
+    fn zip<A: Number, B: Number, C: Number>(a: &QuadShape<A>, b: &QuadShape<B>, f: impl Fn(A, B) -> C) -> QuadShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(quad: &QuadShape<L>, (): (), origin: Vec3<L>) -> SeenQuad<L> {
+        let QuadShape { corner, u, v, .. } = *quad;
         let n = u.cross(v);
         let t = origin - corner;
         SeenQuad { n, u: t.cross(v), v: u.cross(t), height: -t.dot(n) }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenQuad<f32>) -> SeenQuad<L> {
-        let [n, u, v] = three([s.n, s.u, s.v], |a| Vec3::splat(a.into()));
-        SeenQuad { n, u, v, height: L::splat(s.height) }
+    fn splat_seen<L: Lanes>(seen: &SeenQuad<f32>) -> SeenQuad<L> {
+        seen.map(L::splat)
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenQuad<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+    fn nearest<L: Lanes>(seen: &SeenQuad<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
         moller_trumbore(seen, *d, t_min, t_max)
     }
 
@@ -134,7 +157,7 @@ impl Primitives for Quads {
 
 /// See the module's text.
 #[inline(always)]
-pub fn moller_trumbore<L: Lanes>(seen: &SeenQuad<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn moller_trumbore<L: Lanes>(seen: &SeenQuad<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let inverse = L::splat(1.0) / seen.n.dot(direction);
     let t = seen.height * inverse;
     let inside = t.gt(t_min) & t.lt(t_max);
@@ -160,7 +183,7 @@ mod tests {
 
     fn hit(origin: V, direction: V) -> Option<f32> {
         let quads = quads();
-        moller_trumbore(&Quads::seen(&quads.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY)
+        moller_trumbore(&Quads::seen(&quads.shape(0), (), origin.into()), direction.into(), 0.0, f32::INFINITY)
             .map(|(t, _)| t)
     }
 

@@ -16,7 +16,8 @@
 //! A ray that touches the sphere hits it when the computed discriminant is not negative.
 
 use super::methods::SphereMethod;
-use super::{Balls, Bounded, Nearest, Primitives, Sides, Surface};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test};
 use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3, angle};
 
 /// Spheres, column by column.
@@ -26,8 +27,6 @@ pub struct Spheres {
     pub balls: Balls,
     /// Which side of each is there.
     pub sides: Vec<Sides>,
-    /// The same for all, where it is.
-    side: Option<Sides>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
     /// How all are tested.
@@ -36,49 +35,40 @@ pub struct Spheres {
     pub steps: Option<u32>,
 }
 
-/// A sphere as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct SphereRecord {
-    /// Its centre.
-    pub center: Vec3<f32>,
-    /// Its radius.
-    pub radius: f32,
-    /// Which side is there.
-    pub sides: Sides,
-    /// How it is tested.
-    pub method: SphereMethod,
-}
-
-/// What a sphere's test needs of it and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenSphere<L> {
-    /// f = o − center.
-    pub f: Vec3<L>,
-    /// c = |f|² − r²: below zero inside.
-    pub c: L,
-    /// r².
-    pub r2: L,
-    /// What f is short of o − center for its rounding, and r; for [`double`] alone.
-    pub exact: (Vec3<L>, L),
-    /// Which side is there.
-    pub sides: Sides,
-    /// How it is tested.
-    pub method: SphereMethod,
+numbers! {
+    /// A sphere as stored.
+    SphereShape {
+        /// Its centre.
+        center: Vec3,
+        /// Its radius.
+        radius: T,
+    }
+    /// What a sphere's test needs of it and of the rays' origin.
+    SeenSphere {
+        /// f = o − center.
+        f: Vec3,
+        /// c = |f|² − r²: below zero inside.
+        c: T,
+        /// r².
+        r2: T,
+    }
+    /// What [`double`] needs of a sphere and of the rays' origin.
+    ExactSphere {
+        /// f = o − center, rounded.
+        f: Vec3,
+        /// What f is short of o − center for its rounding.
+        lost: Vec3,
+        /// r.
+        radius: T,
+    }
 }
 
 impl Spheres {
     /// Adds a sphere.
     pub fn push(&mut self, center: glam::Vec3, radius: f32, sides: Sides, material: u32) {
         self.balls.push(center, radius);
-        self.side = if self.sides.is_empty() { Some(sides) } else { self.side.filter(|&side| side == sides) };
         self.sides.push(sides);
         self.material.push(material);
-    }
-
-    /// Which side of all is there, where [`one_sided`] with that, or [`stable`], is the test of all.
-    #[inline(always)]
-    pub fn common_side(&self) -> Option<Sides> {
-        self.side.filter(|_| self.method == SphereMethod::Stable)
     }
 
     /// Sphere `i`'s centre.
@@ -93,50 +83,61 @@ impl Spheres {
 }
 
 impl Bounded for Spheres {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = false;
+    /// Rounded to nearest: the traversal's margin covers it.
+    #[inline(always)]
+    fn extent<L: Lanes>(sphere: &SphereShape<L>) -> [Vec3<L>; 2] {
+        let SphereShape { center, radius } = *sphere;
+        let reach = Vec3::new(radius, radius, radius);
+        [center - reach, center + reach]
     }
 }
 
 impl Primitives for Spheres {
-    type Record = SphereRecord;
-    type Seen<L: Lanes> = SeenSphere<L>;
+    type Shape<T: Number> = SphereShape<T>;
+    type Variant = Sides;
+    type Seen<T: Copy> = SeenSphere<T>;
     type Aim<L: Lanes> = Vec3<L>;
+    type Named = SphereMethod;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> SphereRecord {
-        let (center, radius) = (self.center(i).into(), self.radius(i));
-        SphereRecord { center, radius, sides: self.sides[i], method: self.method }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &SphereRecord, origin: Vec3<L>) -> SeenSphere<L> {
-        SeenSphere::new(Vec3::splat(r.center.into()), L::splat(r.radius), r.sides, r.method, origin)
+    fn shape(&self, i: usize) -> SphereShape<f32> {
+        SphereShape { center: self.center(i).into(), radius: self.radius(i) }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenSphere<f32>) -> SeenSphere<L> {
-        SeenSphere {
-            f: Vec3::splat(s.f.into()),
-            c: L::splat(s.c),
-            r2: L::splat(s.r2),
-            exact: (Vec3::splat(s.exact.0.into()), L::splat(s.exact.1)),
-            sides: s.sides,
-            method: s.method,
-        }
+    fn variant(&self, i: usize) -> Sides {
+        self.sides[i]
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenSphere<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        match seen.method {
-            SphereMethod::Quadratic => quadratic(seen, *d, t_min, t_max),
-            // The others are rare, and the call of `double` alone would cost all registers.
-            _ if !SIDED => stable(seen, *d, t_min, t_max),
-            SphereMethod::Stable => one_sided(seen, *d, t_min, t_max),
-            SphereMethod::Geometric => geometric(seen, *d, t_min, t_max),
-            SphereMethod::Double => double(seen, *d, t_min, t_max),
-        }
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &SphereShape<A>,
+        b: &SphereShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> SphereShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(sphere: &SphereShape<L>, _: Sides, origin: Vec3<L>) -> SeenSphere<L> {
+        SeenSphere::new(sphere, origin)
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &SeenSphere<f32>) -> SeenSphere<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(seen: &SeenSphere<L>, sides: Sides, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        stable(seen, sides, *d, t_min, t_max)
+    }
+    #[inline(always)]
+    fn named(&self) -> Option<SphereMethod> {
+        (self.method != SphereMethod::Stable).then_some(self.method)
     }
 
     #[inline(always)]
@@ -157,38 +158,70 @@ impl Primitives for Spheres {
     }
 }
 
+/// A sphere as its methods see it.
+#[derive(Clone, Copy, Debug)]
+pub enum NamedSphere<T: Copy> {
+    /// All but [`double`].
+    Rounded(SeenSphere<T>),
+    /// [`double`].
+    Exact(ExactSphere<T>),
+}
+
+impl Test<Spheres> for SphereMethod {
+    type Seen<T: Copy> = NamedSphere<T>;
+    #[inline(always)]
+    fn seen<L: Lanes>(self, sphere: &SphereShape<L>, _: Sides, origin: Vec3<L>) -> NamedSphere<L> {
+        match self {
+            Self::Double => NamedSphere::Exact(ExactSphere::new(sphere, origin)),
+            _ => NamedSphere::Rounded(SeenSphere::new(sphere, origin)),
+        }
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &NamedSphere<f32>) -> NamedSphere<L> {
+        match seen {
+            NamedSphere::Rounded(seen) => NamedSphere::Rounded(seen.map(L::splat)),
+            NamedSphere::Exact(seen) => NamedSphere::Exact(seen.map(L::splat)),
+        }
+    }
+    /// Only the default knows sides apart.
+    #[inline(always)]
+    fn nearest<L: Lanes>(self, seen: &NamedSphere<L>, sides: Sides, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        match (seen, self) {
+            (NamedSphere::Exact(seen), _) => double(seen, *d, t_min, t_max),
+            (NamedSphere::Rounded(seen), Self::Quadratic) => quadratic(seen, *d, t_min, t_max),
+            (NamedSphere::Rounded(seen), Self::Geometric) => geometric(seen, *d, t_min, t_max),
+            (NamedSphere::Rounded(seen), _) => stable(seen, sides, *d, t_min, t_max),
+        }
+    }
+}
+
 impl<L: Lanes> SeenSphere<L> {
     /// A sphere as seen from `origin`.
     #[inline(always)]
-    pub fn new(center: Vec3<L>, radius: L, sides: Sides, method: SphereMethod, origin: Vec3<L>) -> Self {
+    pub fn new(sphere: &SphereShape<L>, origin: Vec3<L>) -> Self {
+        let f = origin - sphere.center;
+        let r2 = sphere.radius * sphere.radius;
+        Self { f, c: f.dot(f) - r2, r2 }
+    }
+}
+
+impl<L: Lanes> ExactSphere<L> {
+    /// A sphere as seen from `origin`.
+    #[inline(always)]
+    pub fn new(sphere: &SphereShape<L>, origin: Vec3<L>) -> Self {
+        let SphereShape { center, radius } = *sphere;
         let f = origin - center;
-        let r2 = radius * radius;
-        let lost = match method {
-            // What a subtraction rounds off, exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
-            SphereMethod::Double => {
-                let part = f - origin;
-                (origin - (f - part)) - (center + part)
-            }
-            _ => Vec3::splat(glam::Vec3::ZERO),
-        };
-        Self { f, c: f.dot(f) - r2, r2, exact: (lost, radius), sides, method }
+        // What a subtraction rounds off, exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
+        let part = f - origin;
+        Self { f, lost: (origin - (f - part)) - (center + part), radius }
     }
 }
 
 /// The default; see the module's text.
 #[inline(always)]
-pub fn stable<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn stable<L: Lanes>(seen: &SeenSphere<L>, sides: Sides, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let (near, far, possible) = roots(seen, direction)?;
-    let t = near.select(near.gt(t_min), far);
-    let inside = possible & t.gt(t_min) & t.lt(t_max);
-    inside.any().then_some((t, inside))
-}
-
-/// [`stable`], for a sphere of which only one side is there.
-#[inline(always)]
-pub fn one_sided<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let (near, far, possible) = roots(seen, direction)?;
-    let t = match seen.sides {
+    let t = match sides {
         Sides::Both => near.select(near.gt(t_min), far),
         Sides::Front => near,
         Sides::Back => far,
@@ -197,16 +230,10 @@ pub fn one_sided<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
     inside.any().then_some((t, inside))
 }
 
-/// Whether any lane's ray passes through its sphere.
-#[inline(always)]
-pub fn passes<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>) -> bool {
-    roots(seen, direction).is_some()
-}
-
 /// Where the ray enters and leaves, and the lanes in which it may; `None` when it cannot in any.
 #[inline(always)]
 fn roots<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>) -> Option<(L, L, L::Mask)> {
-    let SeenSphere { f, c, r2, .. } = *seen;
+    let SeenSphere { f, c, r2 } = *seen;
     let b = f.dot(direction);
     // The vector from the centre to the ray's closest point: its length does not cancel as b² − c does.
     let closest = direction.mul_add(-b, f);
@@ -225,7 +252,7 @@ fn roots<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>) -> Option<(L, L, L:
 
 /// The textbook's; see the module's text.
 #[inline(always)]
-pub fn quadratic<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn quadratic<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let b = seen.f.dot(direction);
     let discriminant = b * b - seen.c;
     let possible = L::zero().le(discriminant);
@@ -241,7 +268,7 @@ pub fn quadratic<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
 
 /// The lecture's, from outside only; see the module's text.
 #[inline(always)]
-pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let along = -seen.f.dot(direction);
     let q = direction.mul_add(along, seen.f);
     let p2 = q.dot(q);
@@ -256,13 +283,13 @@ pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
 
 /// [`quadratic`] in `f64`; see the module's text.
 #[inline(never)]
-pub fn double<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn double<L: Lanes>(seen: &ExactSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let lanes = |v: L| {
         let mut lanes = [0.0; MOST_LANES];
         v.store(&mut lanes);
         lanes.map(f64::from)
     };
-    let (lost, radius) = seen.exact;
+    let ExactSphere { lost, radius, .. } = *seen;
     let f = [(seen.f.x, lost.x), (seen.f.y, lost.y), (seen.f.z, lost.z)].map(|(f, lost)| (lanes(f), lanes(lost)));
     let d = [direction.x, direction.y, direction.z].map(lanes);
     let (radius, t_min) = (lanes(radius), lanes(t_min));
@@ -287,21 +314,17 @@ mod tests {
     use super::*;
     use glam::{Vec3 as V, vec3};
 
-    type Method = fn(&SeenSphere<f32>, Vec3<f32>, f32, f32) -> Nearest<f32>;
-    const METHODS: [(&str, Method); 4] =
-        [("quadratic", quadratic), ("geometric", geometric), ("stable", stable), ("double", double)];
-
-    fn t(method: Method, center: V, radius: f32, origin: V, direction: V) -> Option<f32> {
+    fn t(method: SphereMethod, center: V, radius: f32, origin: V, direction: V) -> Option<f32> {
         let mut spheres = Spheres::default();
         spheres.push(center, radius, Sides::Both, 0);
-        // So that what it needs is there.
-        spheres.method = SphereMethod::Double;
-        method(&Spheres::seen(&spheres.record(0), origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
+        spheres.method = method;
+        spheres.test::<f32>(0, origin.into(), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
 
     #[test]
     fn from_outside_every_method_agrees() {
-        for (name, method) in METHODS {
+        for &method in SphereMethod::ALL {
+            let name = method.name();
             assert_eq!(t(method, V::ZERO, 1.0, vec3(0.0, 0.0, 3.0), V::NEG_Z), Some(2.0), "{name}");
             assert_eq!(t(method, V::ZERO, 1.0, vec3(0.0, 0.0, 3.0), V::Z), None, "{name} behind");
             assert_eq!(t(method, V::ZERO, 1.0, vec3(0.0, 2.0, 3.0), V::NEG_Z), None, "{name} beside");
@@ -312,18 +335,18 @@ mod tests {
     #[test]
     fn from_inside_geometric_fails_and_the_others_hold() {
         let origin = vec3(0.0, 0.0, 0.5);
-        assert_eq!(t(geometric, V::ZERO, 1.0, origin, V::NEG_Z), None);
-        assert_eq!(t(quadratic, V::ZERO, 1.0, origin, V::NEG_Z), Some(1.5));
-        assert_eq!(t(stable, V::ZERO, 1.0, origin, V::NEG_Z), Some(1.5));
-        assert_eq!(t(stable, V::ZERO, 1.0, origin, V::Z), Some(0.5));
-        assert_eq!(t(stable, V::ZERO, 1.0, V::ZERO, V::X), Some(1.0), "from the centre");
+        assert_eq!(t(SphereMethod::Geometric, V::ZERO, 1.0, origin, V::NEG_Z), None);
+        assert_eq!(t(SphereMethod::Quadratic, V::ZERO, 1.0, origin, V::NEG_Z), Some(1.5));
+        assert_eq!(t(SphereMethod::Stable, V::ZERO, 1.0, origin, V::NEG_Z), Some(1.5));
+        assert_eq!(t(SphereMethod::Stable, V::ZERO, 1.0, origin, V::Z), Some(0.5));
+        assert_eq!(t(SphereMethod::Stable, V::ZERO, 1.0, V::ZERO, V::X), Some(1.0), "from the centre");
     }
 
     #[test]
     fn from_the_surface_only_the_far_side_is_hit() {
-        assert_eq!(t(stable, V::ZERO, 1.0, V::Z, V::Z), None);
-        assert_eq!(t(stable, V::ZERO, 1.0, V::Z, V::NEG_Z), Some(2.0));
-        assert_eq!(t(stable, V::ZERO, 1.0, V::Z, V::X), None, "tangent from the surface");
+        assert_eq!(t(SphereMethod::Stable, V::ZERO, 1.0, V::Z, V::Z), None);
+        assert_eq!(t(SphereMethod::Stable, V::ZERO, 1.0, V::Z, V::NEG_Z), Some(2.0));
+        assert_eq!(t(SphereMethod::Stable, V::ZERO, 1.0, V::Z, V::X), None, "tangent from the surface");
     }
 
     #[test]
@@ -334,9 +357,10 @@ mod tests {
         for step in 0..100 {
             let aside = direction.cross(V::Y).normalize() * (0.9 * step as f32 / 100.0);
             let ray = (center + aside).normalize();
-            let held = t(stable, center, 1.0, V::ZERO, ray);
+            let held = t(SphereMethod::Stable, center, 1.0, V::ZERO, ray);
             assert!(held.is_some_and(|t| (t - 10_000.0).abs() < 1.1), "{step}: {held:?}");
-            misses += t(quadratic, center, 1.0, V::ZERO, ray).is_none_or(|t| (t - 10_000.0).abs() > 1.1) as u32;
+            misses +=
+                t(SphereMethod::Quadratic, center, 1.0, V::ZERO, ray).is_none_or(|t| (t - 10_000.0).abs() > 1.1) as u32;
         }
         assert!(misses > 10, "{misses}");
     }
@@ -353,8 +377,8 @@ mod tests {
             let (b, c) = (o.dot(d), o.length_squared() - f64::from(radius).powi(2));
             let exact = (c / ((b * b - c).sqrt() - b)) as f32;
             let off = |t: Option<f32>| t.map_or(1.0, |t| (t / exact - 1.0).abs());
-            assert!(off(t(stable, V::ZERO, radius, origin, direction)) < 1e-4, "{step}");
-            wrong += (off(t(quadratic, V::ZERO, radius, origin, direction)) > 1e-4) as u32;
+            assert!(off(t(SphereMethod::Stable, V::ZERO, radius, origin, direction)) < 1e-4, "{step}");
+            wrong += (off(t(SphereMethod::Quadratic, V::ZERO, radius, origin, direction)) > 1e-4) as u32;
         }
         assert!(wrong >= 5, "{wrong}");
     }

@@ -43,7 +43,8 @@ pub use ferrari::ferrari;
 pub use sphere_trace::sphere_trace;
 
 use super::methods::TorusMethod;
-use super::{Balls, Bounded, Nearest, Primitives, Surface, columns, frame, frame::along};
+use super::numbers::numbers;
+use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Surface, Test, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
 use crate::math::{LaneMask, Lanes, Vec3, angle, powf, three};
 use glam::DVec3;
@@ -76,41 +77,39 @@ pub struct Tori {
     pub material: Vec<u32>,
     /// How all are tested.
     pub method: TorusMethod,
+    boxes: Vec<[glam::Vec3; 2]>,
     balls: Balls,
 }
 
-/// A torus as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct TorusRecord {
-    /// Its centre.
-    pub center: Vec3<f32>,
-    /// T, B and A.
-    pub axes: [glam::Vec3; 3],
-    /// R.
-    pub major: f32,
-    /// r / R.
-    pub kappa: f32,
-    /// How near to a root the search takes g for a parabola, far from the axis.
-    pub near: f32,
-    /// How it is tested.
-    pub method: TorusMethod,
-}
-
-/// What a torus's test needs of it and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenTorus<L> {
-    /// (o − center) / R, along T, B and A.
-    pub f: Vec3<L>,
-    /// T, B and A.
-    pub axes: [glam::Vec3; 3],
-    /// R.
-    pub major: f32,
-    /// r / R.
-    pub kappa: f32,
-    /// How near to a root the search takes g for a parabola, far from the axis.
-    pub near: f32,
-    /// How it is tested.
-    pub method: TorusMethod,
+numbers! {
+    /// A torus as stored.
+    TorusShape {
+        /// Its centre.
+        center: Vec3,
+        /// T, B and A.
+        axes: [Vec3; 3],
+        /// R.
+        major: T,
+        /// r / R.
+        kappa: T,
+        /// How near to a root the search takes g for a parabola, far from the axis.
+        near: T,
+        /// The box around it.
+        bounds: [Vec3; 2],
+    }
+    /// What a torus's test needs of it and of the rays' origin.
+    SeenTorus {
+        /// (o − center) / R, along T, B and A.
+        f: Vec3,
+        /// T, B and A.
+        axes: [Vec3; 3],
+        /// R.
+        major: T,
+        /// r / R.
+        kappa: T,
+        /// How near to a root the search takes g for a parabola, far from the axis.
+        near: T,
+    }
 }
 
 impl Tori {
@@ -128,6 +127,7 @@ impl Tori {
         // |g‴| = 6 j² |ρ′| / ρ⁴ is at most 6 / ρ².
         self.near.push(0.25 * (ROUNDOFF * minor / major).cbrt());
         self.material.push(material);
+        self.boxes.push(self.enclose(self.material.len() - 1));
         // The ball about the centre is smaller than the one around the box.
         self.balls.push(center, (major + minor) * (1.0 + 2.0 * f32::EPSILON));
     }
@@ -140,6 +140,10 @@ impl Tori {
 
     /// A box around torus `i`.
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
+    }
+
+    fn enclose(&self, i: usize) -> [glam::Vec3; 2] {
         let [t, b, _] = self.axes[i].map(|v| v.as_dvec3());
         let center = self.center(i);
         // The middle of the tube spans √(T² + B²) along every coordinate.
@@ -165,49 +169,68 @@ impl Tori {
 }
 
 impl Bounded for Tori {
-    fn balls(&self) -> &Balls {
-        &self.balls
+    const BOXED: bool = true;
+    #[inline(always)]
+    fn extent<L: Lanes>(torus: &TorusShape<L>) -> [Vec3<L>; 2] {
+        torus.bounds
+    }
+    #[inline(always)]
+    fn around(&self, i: usize) -> [glam::Vec3; 2] {
+        self.boxes[i]
     }
 }
 
 impl Primitives for Tori {
-    type Record = TorusRecord;
-    type Seen<L: Lanes> = SeenTorus<L>;
+    type Shape<T: Number> = TorusShape<T>;
+    type Variant = ();
+    type Seen<T: Copy> = SeenTorus<T>;
     type Aim<L: Lanes> = Vec3<L>;
+    type Named = TorusMethod;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Balls(&self.balls)
+    }
     #[inline(always)]
-    fn record(&self, i: usize) -> TorusRecord {
+    fn shape(&self, i: usize) -> TorusShape<f32> {
         let (major, minor) = (self.major[i], self.minor[i]);
-        TorusRecord {
+        TorusShape {
             center: self.center(i).into(),
-            axes: self.axes[i],
+            axes: three(self.axes[i], Vec3::from),
             major,
             kappa: minor / major,
             near: self.near[i],
-            method: self.method,
+            bounds: self.boxes[i].map(Vec3::from),
         }
     }
+    fn variant(&self, _: usize) {}
     #[inline(always)]
-    fn seen<L: Lanes>(r: &TorusRecord, origin: Vec3<L>) -> SeenTorus<L> {
-        let f = along(&r.axes, origin - Vec3::splat(r.center.into())) * L::splat(1.0 / r.major);
-        SeenTorus { f, axes: r.axes, major: r.major, kappa: r.kappa, near: r.near, method: r.method }
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &TorusShape<A>,
+        b: &TorusShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> TorusShape<C> {
+        a.zip(b, f)
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenTorus<f32>) -> SeenTorus<L> {
-        let SeenTorus { f, axes, major, kappa, near, method } = *s;
-        SeenTorus { f: Vec3::splat(f.into()), axes, major, kappa, near, method }
+    fn seen<L: Lanes>(torus: &TorusShape<L>, (): (), origin: Vec3<L>) -> SeenTorus<L> {
+        let TorusShape { center, axes, major, kappa, near, .. } = *torus;
+        SeenTorus { f: along(&axes, origin - center) * (L::splat(1.0) / major), axes, major, kappa, near }
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTorus<L>, d: &Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-        match seen.method {
-            TorusMethod::MonotoneNewton => monotone_newton(seen, *d, t_min, t_max),
-            TorusMethod::Ferrari => ferrari(seen, *d, t_min, t_max),
-            TorusMethod::SphereTrace => sphere_trace(seen, *d, t_min, t_max),
-        }
+    fn splat_seen<L: Lanes>(seen: &SeenTorus<f32>) -> SeenTorus<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(seen: &SeenTorus<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        monotone_newton(seen, *d, t_min, t_max)
+    }
+    #[inline(always)]
+    fn named(&self) -> Option<TorusMethod> {
+        (self.method != TorusMethod::MonotoneNewton).then_some(self.method)
     }
 
     #[inline(always)]
@@ -229,14 +252,34 @@ impl Primitives for Tori {
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        along(&self.axes[i], surface.point - Vec3::splat(self.center(i)))
+        along(&three(self.axes[i], Vec3::splat), surface.point - Vec3::splat(self.center(i)))
+    }
+}
+
+impl Test<Tori> for TorusMethod {
+    type Seen<T: Copy> = SeenTorus<T>;
+    #[inline(always)]
+    fn seen<L: Lanes>(self, torus: &TorusShape<L>, (): (), origin: Vec3<L>) -> SeenTorus<L> {
+        Tori::seen(torus, (), origin)
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &SeenTorus<f32>) -> SeenTorus<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(self, seen: &SeenTorus<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        match self {
+            Self::MonotoneNewton => monotone_newton(seen, *d, t_min, t_max),
+            Self::Ferrari => ferrari(seen, *d, t_min, t_max),
+            Self::SphereTrace => sphere_trace(seen, *d, t_min, t_max),
+        }
     }
 }
 
 /// The default; see the module's text.
 #[inline(always)]
-pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let per_major = L::splat(1.0 / seen.major);
+pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let per_major = L::splat(1.0) / seen.major;
     let d = along(&seen.axes, direction);
     let b = seen.f.dot(d);
     let q = d.mul_add(-b, seen.f);
@@ -245,7 +288,7 @@ pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min:
     let path = Path::new(q, d, &span, seen.kappa, seen.near);
     let at_first = path.sample(path.ends[0]);
     // 2 κ times the distance from the surface.
-    let on_level = L::splat(2.0 * seen.kappa * (1.0 + seen.kappa) * ON);
+    let on_level = (seen.kappa + seen.kappa) * (L::splat(1.0) + seen.kappa) * L::splat(ON);
     let on = !span.entered & at_first.value.abs().le(on_level);
     let [low, high] = path.ends;
     let [bend, unbend] = path.inflections;
@@ -269,7 +312,7 @@ pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min:
             found = found | hit;
         }
     }
-    let t = ((path.middle + u) - b) * L::splat(seen.major);
+    let t = ((path.middle + u) - b) * seen.major;
     let inside = found & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
@@ -287,15 +330,16 @@ impl<L: Lanes> Span<L> {
     /// `None` when there is none in any lane; `ray` is where the ray starts and ends. Its end leaves spans out, but cuts
     /// none short: where a search ends must not change where it finds the root.
     #[inline(always)]
-    fn around(kappa: f32, q: Vec3<L>, d: Vec3<L>, ray: [L; 2]) -> Option<Self> {
-        let radius = L::splat((1.0 + kappa) * (1.0 + SLACK));
+    fn around(kappa: L, q: Vec3<L>, d: Vec3<L>, ray: [L; 2]) -> Option<Self> {
+        let reach = L::splat(1.0) + kappa;
+        let radius = reach * L::splat(1.0 + SLACK);
         let half2 = q.dot(q).neg_mul_add(L::splat(1.0), radius * radius);
         let live = half2.ge(L::zero());
         if !live.any() {
             return None;
         }
         let half = half2.sqrt();
-        let height = L::splat(kappa + (1.0 + kappa) * SLACK);
+        let height = kappa + reach * L::splat(SLACK);
         // Not zero, for 0 / 0; over the ball's diameter so little is nothing.
         let steepness = d.z.select(d.z.abs().gt(L::splat(1e-18)), L::splat(1e-18));
         let inverse = L::splat(1.0) / steepness;
@@ -328,7 +372,7 @@ struct Path<L> {
 
 impl<L: Lanes> Path<L> {
     #[inline(always)]
-    fn new(q: Vec3<L>, d: Vec3<L>, span: &Span<L>, kappa: f32, near: f32) -> Self {
+    fn new(q: Vec3<L>, d: Vec3<L>, span: &Span<L>, kappa: L, near: L) -> Self {
         let zero = L::zero();
         let [low, high] = span.ends;
         let across2 = d.x.mul_add(d.x, d.y * d.y);
@@ -347,7 +391,7 @@ impl<L: Lanes> Path<L> {
         let reach = reach.max(L::splat(1e-12));
         let ends = [low - middle, high - middle];
         let inflections = [ends[0].max(-reach), ends[1].min(reach)];
-        let [kappa2, near] = [kappa * kappa, near].map(L::splat);
+        let kappa2 = kappa * kappa;
         Self { middle, ends, inflections, rho2, slope, across2, j2: j * j, z: p.z, dz: d.z, kappa2, near }
     }
 

@@ -81,8 +81,7 @@ fn hits<K: Primitives, L: Lanes>(kind: &K, rays: &[Ray], t_min: f32) -> Vec<Opti
         };
         let origin = Vec3::new(lane(&|r| r.origin.x), lane(&|r| r.origin.y), lane(&|r| r.origin.z));
         let direction = Vec3::new(lane(&|r| r.direction.x), lane(&|r| r.direction.y), lane(&|r| r.direction.z));
-        let seen = K::seen(&kind.record(0), origin);
-        let found = K::nearest::<L, true>(&seen, &K::aim(direction), L::splat(t_min), L::splat(f32::INFINITY));
+        let found = kind.test(0, origin, direction, L::splat(t_min), L::splat(f32::INFINITY));
         let mut t = vec![0.0; L::WIDTH];
         let bits = found.map_or(0, |(at, mask)| {
             at.store(&mut t);

@@ -23,7 +23,8 @@
 
 use super::face::{self, between};
 use super::methods::TriangleMethod;
-use super::{Nearest, Primitives, Sides, Surface, columns, flat};
+use super::numbers::numbers;
+use super::{Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 
 /// Triangles, column by column.
@@ -38,8 +39,6 @@ pub struct Triangles {
     pub reach: Vec<f32>,
     /// Which side of each is there.
     pub sides: Vec<Sides>,
-    /// Whether there is any of which only one side is there.
-    pub one_sided: bool,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
     /// Normals at the corners; none where no triangle has any.
@@ -74,33 +73,60 @@ impl<T: Copy> Attribute<T> {
     }
 }
 
-/// A triangle as stored.
-#[derive(Clone, Copy, Debug)]
-pub struct TriangleRecord {
-    /// a, b, c.
-    pub corners: [Vec3<f32>; 3],
-    /// N = (b − a) × (c − a).
-    pub n: Vec3<f32>,
-    /// Which side is there.
-    pub sides: Sides,
-    /// How it is tested.
-    pub method: TriangleMethod,
+numbers! {
+    /// A triangle as stored.
+    TriangleShape {
+        /// a, b, c by component.
+        corners: [[T; 3]; 3],
+    }
+    /// What [`watertight`] needs of a triangle and of the rays' origin.
+    SeenTriangle {
+        /// a, b, c, from the origin.
+        corners: [Vec3; 3],
+        /// N = (b − a) × (c − a).
+        n: Vec3,
+        /// a·N, a from the origin.
+        height: T,
+    }
+    /// What [`moller_trumbore`] needs of a triangle and of the rays' origin.
+    SeenEdges {
+        /// N = e1 × e2.
+        n: Vec3,
+        /// T × e2.
+        u: Vec3,
+        /// e1 × T.
+        v: Vec3,
+        /// −T·N.
+        height: T,
+    }
+    /// What [`edge_planes`] needs of a triangle and of the rays' origin.
+    SeenEdgePlanes {
+        /// The normals of the planes through the origin and an edge.
+        planes: [Vec3; 3],
+        /// N.
+        n: Vec3,
+        /// a·N, a from the origin.
+        height: T,
+    }
 }
 
-/// What a triangle's method needs of it and of the rays' origin.
+impl<L: Lanes> TriangleShape<L> {
+    /// a, b, c.
+    #[inline(always)]
+    pub fn corners(&self) -> [Vec3<L>; 3] {
+        three(self.corners, |[x, y, z]| Vec3::new(x, y, z))
+    }
+}
+
+/// A triangle as its methods see it.
 #[derive(Clone, Copy, Debug)]
-pub struct SeenTriangle<L> {
-    /// The corners from the origin for [`watertight`], the planes through it and an edge for [`edge_planes`], u and v of
-    /// [`SeenEdges`] for [`moller_trumbore`].
-    pub parts: [Vec3<L>; 3],
-    /// N.
-    pub n: Vec3<L>,
-    /// a·N, from the origin.
-    pub height: L,
-    /// Which side is there.
-    pub sides: Sides,
-    /// How it is tested.
-    pub method: TriangleMethod,
+pub enum NamedTriangle<T: Copy> {
+    /// [`watertight`].
+    Corners(SeenTriangle<T>),
+    /// [`moller_trumbore`].
+    Edges(SeenEdges<T>),
+    /// [`edge_planes`].
+    Planes(SeenEdgePlanes<T>),
 }
 
 /// A unit direction, its axis of the largest component and the shear that turns it into that axis.
@@ -165,7 +191,6 @@ impl Triangles {
     pub fn push(&mut self, corners: [glam::Vec3; 3], sides: Sides, material: u32) {
         self.corners.iter_mut().zip(corners).for_each(|(column, corner)| columns::push(column, corner));
         self.sides.push(sides);
-        self.one_sided |= sides != Sides::Both;
         self.material.push(material);
         // In f64, where no product of lengths overflows or vanishes.
         let [a, b, c] = corners;
@@ -212,59 +237,62 @@ impl Triangles {
     }
 }
 
+impl Bounded for Triangles {
+    const BOXED: bool = false;
+    #[inline(always)]
+    fn extent<L: Lanes>(triangle: &TriangleShape<L>) -> [Vec3<L>; 2] {
+        let [a, b, c] = triangle.corners();
+        [a.min(b.min(c)), a.max(b.max(c))]
+    }
+}
+
 impl Primitives for Triangles {
-    type Record = TriangleRecord;
-    type Seen<L: Lanes> = SeenTriangle<L>;
+    type Shape<T: Number> = TriangleShape<T>;
+    type Variant = Sides;
+    type Seen<T: Copy> = SeenTriangle<T>;
     type Aim<L: Lanes> = Aim<L>;
+    type Named = TriangleMethod;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
         &self.material
     }
-    #[inline(always)]
-    fn record(&self, i: usize) -> TriangleRecord {
-        let corners = three(self.corners(i), Vec3::from);
-        TriangleRecord { corners, n: normal(corners), sides: self.sides[i], method: self.method }
+    fn cull(&self) -> Cull<'_> {
+        Cull::Triangles(self)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(r: &TriangleRecord, origin: Vec3<L>) -> SeenTriangle<L> {
-        let corners = three(r.corners, |c| Vec3::splat(c.into()) - origin);
-        let n = Vec3::splat(r.n.into());
-        let parts = match r.method {
-            TriangleMethod::Watertight => corners,
-            TriangleMethod::MollerTrumbore => edges_of(corners),
-            TriangleMethod::EdgePlanes => planes(corners),
-        };
-        SeenTriangle { parts, n, height: corners[0].dot(n), sides: r.sides, method: r.method }
+    fn shape(&self, i: usize) -> TriangleShape<f32> {
+        TriangleShape { corners: three(self.corners(i), |corner| corner.to_array()) }
     }
     #[inline(always)]
-    fn splat<L: Lanes>(s: &SeenTriangle<f32>) -> SeenTriangle<L> {
-        SeenTriangle {
-            parts: three(s.parts, |part| Vec3::splat(part.into())),
-            n: Vec3::splat(s.n.into()),
-            height: L::splat(s.height),
-            sides: s.sides,
-            method: s.method,
-        }
+    fn variant(&self, i: usize) -> Sides {
+        self.sides[i]
     }
     #[inline(always)]
-    fn nearest<L: Lanes, const SIDED: bool>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-        if !SIDED {
-            return watertight(seen, aim, t_min, t_max);
-        }
-        let (t, inside) = match seen.method {
-            TriangleMethod::Watertight => watertight(seen, aim, t_min, t_max),
-            TriangleMethod::MollerTrumbore => {
-                let SeenTriangle { parts: [u, v, _], n, height, .. } = *seen;
-                moller_trumbore(&SeenEdges { n, u, v, height }, aim.direction, t_min, t_max)
-            }
-            TriangleMethod::EdgePlanes => edge_planes(seen, aim.direction, t_min, t_max),
-        }?;
-        if seen.sides == Sides::Both {
-            return Some((t, inside));
-        }
-        let inside = inside & there(seen.sides, seen.n.dot(aim.direction));
-        inside.any().then_some((t, inside))
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &TriangleShape<A>,
+        b: &TriangleShape<B>,
+        f: impl Fn(A, B) -> C,
+    ) -> TriangleShape<C> {
+        a.zip(b, f)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(triangle: &TriangleShape<L>, _: Sides, origin: Vec3<L>) -> SeenTriangle<L> {
+        let n = normal(triangle.corners());
+        let corners = three(triangle.corners(), |corner| corner - origin);
+        SeenTriangle { corners, n, height: corners[0].dot(n) }
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &SeenTriangle<f32>) -> SeenTriangle<L> {
+        seen.map(L::splat)
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(seen: &SeenTriangle<L>, sides: Sides, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        one_sided(watertight(seen, aim, t_min, t_max), sides, seen.n, aim)
+    }
+    #[inline(always)]
+    fn named(&self) -> Option<TriangleMethod> {
+        (self.method != TriangleMethod::Watertight).then_some(self.method)
     }
 
     #[inline(always)]
@@ -285,6 +313,49 @@ impl Primitives for Triangles {
     }
 }
 
+impl Test<Triangles> for TriangleMethod {
+    type Seen<T: Copy> = NamedTriangle<T>;
+    #[inline(always)]
+    fn seen<L: Lanes>(self, triangle: &TriangleShape<L>, sides: Sides, origin: Vec3<L>) -> NamedTriangle<L> {
+        match self {
+            Self::Watertight => NamedTriangle::Corners(Triangles::seen(triangle, sides, origin)),
+            Self::MollerTrumbore => NamedTriangle::Edges(SeenEdges::new(triangle, origin)),
+            Self::EdgePlanes => {
+                let SeenTriangle { corners, n, height } = Triangles::seen(triangle, sides, origin);
+                NamedTriangle::Planes(SeenEdgePlanes { planes: planes(corners), n, height })
+            }
+        }
+    }
+    #[inline(always)]
+    fn splat_seen<L: Lanes>(seen: &NamedTriangle<f32>) -> NamedTriangle<L> {
+        match seen {
+            NamedTriangle::Corners(seen) => NamedTriangle::Corners(seen.map(L::splat)),
+            NamedTriangle::Edges(seen) => NamedTriangle::Edges(seen.map(L::splat)),
+            NamedTriangle::Planes(seen) => NamedTriangle::Planes(seen.map(L::splat)),
+        }
+    }
+    #[inline(always)]
+    fn nearest<L: Lanes>(self, seen: &NamedTriangle<L>, sides: Sides, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        let (hit, n) = match seen {
+            NamedTriangle::Corners(seen) => (watertight(seen, aim, t_min, t_max), seen.n),
+            NamedTriangle::Edges(seen) => (moller_trumbore(seen, aim.direction, t_min, t_max), seen.n),
+            NamedTriangle::Planes(seen) => (edge_planes(seen, aim.direction, t_min, t_max), seen.n),
+        };
+        one_sided(hit, sides, n, aim)
+    }
+}
+
+/// What is there of a hit for rays that come from either side.
+#[inline(always)]
+fn one_sided<L: Lanes>(hit: LaneHits<L>, sides: Sides, n: Vec3<L>, aim: &Aim<L>) -> LaneHits<L> {
+    let (t, inside) = hit?;
+    if sides == Sides::Both {
+        return Some((t, inside));
+    }
+    let inside = inside & there(sides, n.dot(aim.direction));
+    inside.any().then_some((t, inside))
+}
+
 /// N = (b − a) × (c − a).
 #[inline(always)]
 pub fn normal<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> Vec3<L> {
@@ -293,9 +364,9 @@ pub fn normal<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> Vec3<L> {
 
 /// The default; see the module's text.
 #[inline(always)]
-pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let inside = covers(&seen.parts, aim)?;
-    let [a, b, c] = seen.parts;
+pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let inside = covers(&seen.corners, aim)?;
+    let [a, b, c] = seen.corners;
     let flat = Flat::new(seen.n, seen.height, a.min(b).min(c), a.max(b).max(c));
     let (t, inside) = flat.distance(aim.direction, inside);
     let inside = inside & t.gt(t_min) & t.lt(t_max);
@@ -392,44 +463,20 @@ pub fn there<L: Lanes>(sides: Sides, along: L) -> L::Mask {
     }
 }
 
-/// What [`moller_trumbore`] needs of a triangle and of the rays' origin.
-#[derive(Clone, Copy, Debug)]
-pub struct SeenEdges<L> {
-    /// N = e1 × e2.
-    pub n: Vec3<L>,
-    /// T × e2.
-    pub u: Vec3<L>,
-    /// e1 × T.
-    pub v: Vec3<L>,
-    /// −T·N.
-    pub height: L,
-}
-
-/// u and v of [`SeenEdges`] of a triangle by its corners, from the origin.
-#[inline(always)]
-fn edges_of<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> [Vec3<L>; 3] {
-    [(c - a).cross(a), a.cross(b - a), a]
-}
-
-impl SeenEdges<f32> {
+impl<L: Lanes> SeenEdges<L> {
     /// A triangle as seen from `origin`.
-    pub fn new(r: &TriangleRecord, origin: Vec3<f32>) -> Self {
-        let [a, b, c] = r.corners;
-        let (t, e1, e2) = (origin - a, b - a, c - a);
-        Self { n: r.n, u: t.cross(e2), v: e1.cross(t), height: -t.dot(r.n) }
-    }
-
-    /// The same in every lane.
     #[inline(always)]
-    pub fn splat<L: Lanes>(&self) -> SeenEdges<L> {
-        let [n, u, v] = three([self.n, self.u, self.v], |a| Vec3::splat(a.into()));
-        SeenEdges { n, u, v, height: L::splat(self.height) }
+    pub fn new(triangle: &TriangleShape<L>, origin: Vec3<L>) -> Self {
+        let [a, b, c] = triangle.corners();
+        let (t, e1, e2) = (origin - a, b - a, c - a);
+        let n = e1.cross(e2);
+        Self { n, u: t.cross(e2), v: e1.cross(t), height: -t.dot(n) }
     }
 }
 
 /// See the module's text.
 #[inline(always)]
-pub fn moller_trumbore<L: Lanes>(seen: &SeenEdges<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn moller_trumbore<L: Lanes>(seen: &SeenEdges<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let inverse = L::splat(1.0) / seen.n.dot(direction);
     let t = seen.height * inverse;
     let inside = t.gt(t_min) & t.lt(t_max);
@@ -451,10 +498,10 @@ fn planes<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> [Vec3<L>; 3] {
     [normal(b, c), normal(c, a), normal(a, b)]
 }
 
-/// See the module's text; a triangle that is seen by this method.
+/// See the module's text.
 #[inline(always)]
-pub fn edge_planes<L: Lanes>(seen: &SeenTriangle<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let [u, v, w] = three(seen.parts, |plane| plane.dot(direction));
+pub fn edge_planes<L: Lanes>(seen: &SeenEdgePlanes<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let [u, v, w] = three(seen.planes, |plane| plane.dot(direction));
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
     let t = seen.height / seen.n.dot(direction);
     let inside = (least.ge(L::zero()) | most.le(L::zero())) & t.gt(t_min) & t.lt(t_max);
@@ -469,14 +516,15 @@ mod tests {
     fn hit(corners: [V; 3], origin: V, direction: V) -> Option<f32> {
         let mut triangles = Triangles::default();
         triangles.push(corners, Sides::Both, 0);
-        let record = triangles.record(0);
+        let shape = triangles.shape(0);
         let (o, aim) = (Vec3::from(origin), Aim::new(direction.into()));
-        let found = watertight(&Triangles::seen(&record, o), &aim, 0.0, f32::INFINITY).map(|(t, _)| t);
-        let edges = SeenEdges::new(&record, o);
-        assert_eq!(moller_trumbore(&edges, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
-        triangles.method = TriangleMethod::EdgePlanes;
-        let seen = Triangles::seen(&triangles.record(0), o);
-        assert_eq!(edge_planes(&seen, direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t), found);
+        let by = |method: TriangleMethod| {
+            let seen = method.seen(&shape, Sides::Both, o);
+            method.nearest(&seen, Sides::Both, &aim, 0.0, f32::INFINITY).map(|(t, _)| t)
+        };
+        let found = by(TriangleMethod::Watertight);
+        assert_eq!(by(TriangleMethod::MollerTrumbore), found);
+        assert_eq!(by(TriangleMethod::EdgePlanes), found);
         found
     }
 

@@ -13,7 +13,7 @@ pub fn inverse_root<L: Lanes>(x: L, steps: u32) -> L {
 }
 
 /// A vector in every lane; `Vec3<f32>` is a single one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vec3<L> {
     /// First component.
     pub x: L,

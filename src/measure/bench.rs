@@ -12,7 +12,7 @@ use super::streams::Streams;
 use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa};
 use crate::render::{Camera, Kernel, render_display, with_lanes};
 use crate::scene::{Description, Scene};
-use crate::trace::{Candidates, intersect_stream, occluded_stream};
+use crate::trace::{Scratch, intersect_stream, occluded_stream};
 
 /// Timed runs of each kernel: as many as fit the budget, within these bounds.
 const RUNS: std::ops::RangeInclusive<usize> = 3..=31;
@@ -251,19 +251,18 @@ fn each<A: Send>(
     batches: &[RayBatch],
     answers: &mut [A],
     passes: u64,
-    query: impl Fn(&[RayBatch], &mut [A], &mut Candidates) + Sync,
+    query: impl Fn(&[RayBatch], &mut [A], &mut Scratch) + Sync,
 ) {
     match rayon::current_num_threads() {
         1 => {
-            let mut scratch = Candidates::default();
+            let mut scratch = Scratch::default();
             (0..passes).for_each(|_| query(batches, answers, &mut scratch));
         }
         threads => {
             let size = batches.len().div_ceil(8 * threads).max(1);
             for _ in 0..passes {
                 let shares = batches.par_chunks(size).zip(answers.par_chunks_mut(size));
-                shares
-                    .for_each_init(Candidates::default, |scratch, (batches, answers)| query(batches, answers, scratch));
+                shares.for_each_init(Scratch::default, |scratch, (batches, answers)| query(batches, answers, scratch));
             }
         }
     }

@@ -12,7 +12,7 @@ use super::{Camera, Film, Kernel, Tone};
 use crate::math::{BATCH, HitBatch, Lanes, NONE, RayBatch, Vec3};
 use crate::scene::Scene;
 use crate::shade::{Counts, Observer, Workspace, facing_normal, trace_waves};
-use crate::trace::{Candidates, intersect};
+use crate::trace::{Scratch, intersect};
 
 /// Pixels along a tile's edge.
 pub const TILE: usize = 16;
@@ -192,7 +192,7 @@ struct Work {
     shading: Workspace,
     sum: [[f32; BATCH]; 3],
     hits: HitBatch,
-    candidates: Candidates,
+    candidates: Scratch,
 }
 
 impl Default for Work {
@@ -201,7 +201,7 @@ impl Default for Work {
             shading: Workspace::default(),
             sum: [[0.0; BATCH]; 3],
             hits: HitBatch::default(),
-            candidates: Candidates::default(),
+            candidates: Scratch::default(),
         }
     }
 }

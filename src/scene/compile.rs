@@ -7,9 +7,12 @@ use glam::Vec3;
 
 use super::plan::Structure;
 use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
-use crate::bvh::{Aabb, Bvh, Class, Source};
+use crate::bvh::{self, Aabb, BLOCK, BlockList, Blocks, Bvh, Class, Source};
 use crate::geometry::methods::Choice;
-use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
+use crate::geometry::{
+    Bounded, Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles, Variant,
+};
+use crate::kinds::for_each_kind;
 
 /// A compiled scene: SoA arrays, ready to trace.
 ///
@@ -73,6 +76,8 @@ pub struct Body {
 /// The first id of every kind of primitive; that of planes is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct First {
+    /// Of the planes.
+    pub planes: u32,
     /// Of the spheres.
     pub spheres: u32,
     /// Of the triangles.
@@ -245,50 +250,69 @@ pub fn compile_with(
     };
     if scene.plan.structure == Structure::Tree {
         let started = Instant::now();
-        scene.bvh = Some(Bvh::build(&Bounded(&scene)));
+        scene.bvh = Some(Bvh::build(&InTree(&scene)));
         scene.build_time = started.elapsed();
     }
     Ok(scene)
 }
 
 /// All of a scene's primitives that have bounds, for the tree.
-struct Bounded<'a>(&'a Scene);
+struct InTree<'a>(&'a Scene);
 
-impl Source for Bounded<'_> {
-    fn len(&self) -> usize {
-        let Self(scene) = self;
-        scene.spheres.len() + scene.triangles.len() + scene.boxes.len()
-    }
-    fn bounds(&self, i: usize) -> Aabb {
-        let (Self(scene), id) = (self, self.id(i));
-        if id < scene.first.triangles {
-            let (center, radius) = self.sphere(i);
-            // Rounded to nearest: the traversal's margin covers it.
-            return Aabb { min: center - radius, max: center + radius };
+macro_rules! source {
+    (unbounded { $($unbounded:tt)* } bounded { $(($field:ident: $Storage:ident, $($rest:tt)*))* }) => {
+        impl Source for InTree<'_> {
+            fn len(&self) -> usize {
+                0 $(+ self.0.$field.len())*
+            }
+            fn bounds(&self, i: usize) -> Aabb {
+                let mut i = i;
+                $(
+                    if i < self.0.$field.len() {
+                        let [min, max] = self.0.$field.around(i);
+                        return Aabb { min, max };
+                    }
+                    i -= self.0.$field.len();
+                )*
+                unreachable!("{i} beyond the last primitive")
+            }
+            fn pieces(&self, i: usize, mut show: impl FnMut(Aabb)) {
+                let mut i = i;
+                $(
+                    if i < self.0.$field.len() {
+                        let kind = &self.0.$field;
+                        let n = kind.pieces(i);
+                        return (0..n).map(|k| kind.piece(i, k, n)).for_each(|[min, max]| show(Aabb { min, max }));
+                    }
+                    i -= self.0.$field.len();
+                )*
+                unreachable!("{i} beyond the last primitive")
+            }
+            fn cut(&self) -> bool {
+                false $(|| (0..self.0.$field.len()).any(|i| self.0.$field.pieces(i) > 1))*
+            }
+            fn class(&self, i: usize) -> Class {
+                let mut i = i;
+                $(
+                    if i < self.0.$field.len() {
+                        return Class::new(bvh::Kind::$Storage, self.0.$field.variant(i).code());
+                    }
+                    i -= self.0.$field.len();
+                )*
+                unreachable!("{i} beyond the last primitive")
+            }
+            fn id(&self, i: usize) -> u32 {
+                self.0.first.spheres + i as u32
+            }
+            fn blocks(&self, ids: &[Vec<[u32; BLOCK]>]) -> Blocks {
+                let mut ids = ids.iter();
+                let mut next = || ids.next().map_or(&[][..], |ids| &ids[..]);
+                Blocks { $($field: BlockList::of(&self.0.$field, self.0.first.$field, next()),)* }
+            }
         }
-        if id < scene.first.quads {
-            return self.triangle(i).into_iter().fold(Aabb::EMPTY, Aabb::extend);
-        }
-        scene.boxes[(id - scene.first.quads) as usize]
-    }
-    fn class(&self, i: usize) -> Class {
-        let (Self(scene), id) = (self, self.id(i));
-        match id {
-            _ if id < scene.first.triangles => Class::Sphere,
-            _ if id < scene.first.quads => Class::Triangle,
-            _ => Class::Other,
-        }
-    }
-    fn id(&self, i: usize) -> u32 {
-        self.0.first.spheres + i as u32
-    }
-    fn triangle(&self, i: usize) -> [Vec3; 3] {
-        self.0.triangles.corners(i - self.0.spheres.len())
-    }
-    fn sphere(&self, i: usize) -> (Vec3, f32) {
-        (self.0.spheres.center(i), self.0.spheres.radius(i))
-    }
+    };
 }
+for_each_kind!(source);
 
 /// Adds a mesh's triangles, and to those what its vertices have.
 fn add_mesh(triangles: &mut Triangles, mesh: &Mesh) {

@@ -5,7 +5,7 @@ use super::surface::Surfaces;
 use super::wave::{Observer, Wave};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene, ShadowStart};
-use crate::trace::{Ahead, Bounds, Candidates, Extent, Span, any_hits};
+use crate::trace::{Ahead, Bounds, Contents, Extent, Occluded, Scratch, Span, trace};
 
 /// 1 / (4 π).
 const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
@@ -53,29 +53,29 @@ impl Lighting {
 
     /// Adds light `light`; returns the number of shadow rays.
     #[inline(always)]
-    pub fn add<L: Lanes, const RICH: bool, const MESH: bool>(
+    pub fn add<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
         light: usize,
         wave: &Wave,
         surfaces: &Surfaces,
-        scratch: &mut Candidates,
+        scratch: &mut Scratch,
         observer: &mut impl Observer,
     ) -> u64 {
         let (count, bounds) = match scene.plan.shadows[light] {
-            ShadowStart::Light => self.fire_from_light::<L, RICH>(scene, light, wave, surfaces),
-            ShadowStart::Point => self.fire_from_points::<L, RICH>(scene, light, wave, surfaces),
+            ShadowStart::Light => self.fire_from_light::<L, C>(scene, light, wave, surfaces),
+            ShadowStart::Point => self.fire_from_points::<L, C>(scene, light, wave, surfaces),
         };
         if count > 0 {
             observer.shadow(&self.rays);
-            self.collect::<L, RICH, MESH>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
+            self.collect::<L, C>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
         }
         count
     }
 
     /// Makes the shadow rays, one for every hit that faces the light, from the light.
     #[inline(always)]
-    fn fire_from_light<L: Lanes, const RICH: bool>(
+    fn fire_from_light<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
         light: usize,
@@ -86,7 +86,7 @@ impl Lighting {
         self.rays.set_common_origin(position);
         let mut directions = Extent::<L>::empty();
         let offsets = Offsets::of(&scene.plan.methods);
-        let count = self.fire::<L, RICH>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
+        let count = self.fire::<L, C>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
             let ray = spawn::shadow_from_light(&offsets, Vec3::splat(position), point, normal, lift);
             directions.include(ray.direction, L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero()));
             ray
@@ -96,7 +96,7 @@ impl Lighting {
 
     /// Makes the same rays, from the points.
     #[inline(always)]
-    fn fire_from_points<L: Lanes, const RICH: bool>(
+    fn fire_from_points<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
         light: usize,
@@ -107,7 +107,7 @@ impl Lighting {
         self.rays.common_origin = false;
         let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
         let offsets = Offsets::of(&scene.plan.methods);
-        let count = self.fire::<L, RICH>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
+        let count = self.fire::<L, C>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
             let ray = spawn::shadow_from_point(&offsets, position, point, normal, lift);
             let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
             directions.include(ray.direction, active);
@@ -121,7 +121,7 @@ impl Lighting {
     /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number. `towards` is 1 where they run to
     /// the light and −1 where they come from it.
     #[inline(always)]
-    fn fire<L: Lanes, const RICH: bool>(
+    fn fire<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
         wave: &Wave,
@@ -138,11 +138,11 @@ impl Lighting {
                 L::splat(-1.0).store(&mut self.rays.t_max[at..]);
                 continue;
             }
-            let (point, geometric) = (Vec3::load(&surfaces.point, at), surfaces.geometric_normal::<L, RICH>(scene, at));
+            let (point, geometric) = (Vec3::load(&surfaces.point, at), surfaces.geometric_normal::<L, C>(scene, at));
             let ray = spawn(&mut self.rays, at, point, geometric, lift);
             let mut lit = hit & ray.cosine.gt(L::zero());
             let mut cosine = ray.cosine;
-            if RICH && scene.plan.smooth {
+            if C::ALL && scene.plan.smooth {
                 cosine = Vec3::<L>::load(&surfaces.normal, at).dot(ray.direction) * L::splat(towards);
                 lit = lit & cosine.gt(L::zero());
             }
@@ -159,27 +159,27 @@ impl Lighting {
 
     /// Traces the shadow rays, and adds what the light does where nothing blocks them.
     #[inline(always)]
-    fn collect<L: Lanes, const RICH: bool, const MESH: bool>(
+    fn collect<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
         light: &Light,
         bounds: &Bounds,
         wave: &Wave,
         surfaces: &Surfaces,
-        scratch: &mut Candidates,
+        scratch: &mut Scratch,
     ) {
         let Self { rays, irradiance, highlight, arriving, cosine } = self;
         let power = Vec3::<L>::splat(light.power);
         // Compiled in place, or it would load what it captures for every packet.
-        any_hits::<L, RICH, MESH>(
+        trace::<Occluded, L, C>(
             scene,
             rays,
             Ahead::NOTHING,
             || Some(*bounds),
             scratch,
             #[inline(always)]
-            |at, active, settled| {
-                let lit = active & !settled;
+            |at, active, found| {
+                let lit = active & !found.settled;
                 if !lit.any() {
                     return;
                 }

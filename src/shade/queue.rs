@@ -3,6 +3,7 @@
 use super::wave::{Leaving, Wave};
 use crate::math::{BATCH, LaneMask, Lanes};
 use crate::scene::Plan;
+use crate::trace::Everything;
 
 /// How a ray left the surface before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +99,7 @@ impl Queue {
                 self.waiting += 1;
             }
             let Some(wave) = self.line(depth, kind).back_mut() else { return };
-            left = wave.append::<L, true>(plan, leaving, L::Mask::from_bits(left));
+            left = wave.append::<L, Everything>(plan, leaving, L::Mask::from_bits(left));
         }
     }
 }

@@ -7,7 +7,7 @@ use super::wave::Wave;
 use crate::geometry::{Primitives, Surface};
 use crate::math::{BATCH, LaneMask, Lanes, Vec3, exp2};
 use crate::scene::{Material, Pigment, Scene, with_primitive};
-use crate::trace::Nearest;
+use crate::trace::{Contents, Nearest};
 
 /// The surfaces that a wave's rays hit, column by column.
 #[derive(Clone, Debug)]
@@ -106,28 +106,28 @@ impl Surfaces {
         self.lift[..len.next_multiple_of(8)].fill(-1.0);
     }
 
-    /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`. `RICH` is the plan's.
+    /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`.
     ///
     /// Neighbouring rays mostly hit the same primitive, so each primitive in the packet is looked at once, for all
     /// lanes, and selected where it was hit.
     #[inline(always)]
-    pub fn find<L: Lanes, const RICH: bool>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
+    pub fn find<L: Lanes, C: Contents>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
         let direction = Vec3::<L>::load(&wave.rays.direction, at);
         let p = direction.mul_add(hit.t, wave.rays.origins(at));
         let mut ids = [0; 8];
         hit.primitive.store_ids(&mut ids);
         let first = ids[hit.found.bits().trailing_zeros() as usize];
-        let mut g = gather::<L, RICH>(scene, first, p);
+        let mut g = gather::<L, C>(scene, first, p);
         let mut left = hit.found.bits() & !L::id_mask(&ids, first).bits();
         while left != 0 {
             let id = ids[left.trailing_zeros() as usize];
             let same = L::id_mask(&ids, id);
-            g = gather::<L, RICH>(scene, id, p).select(same, g);
+            g = gather::<L, C>(scene, id, p).select(same, g);
             left &= !same.bits();
         }
         let behind = g.normal.dot(direction).gt(L::zero());
         let mut normal = (-g.normal).select(behind, g.normal);
-        if RICH && scene.plan.smooth {
+        if C::ALL && scene.plan.smooth {
             normal.store(&mut self.geometric, at);
             normal = (-g.smooth).select(behind, g.smooth);
         }
@@ -136,7 +136,7 @@ impl Surfaces {
         let lift = Offsets::of(&scene.plan.methods).lift(g.point, g.reach);
         lift.select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
-        let own = weight * if RICH { g.own } else { L::splat(1.0) - g.mirror };
+        let own = weight * if C::ALL { g.own } else { L::splat(1.0) - g.mirror };
         (g.color * own).store(&mut self.color, at);
         (weight * g.mirror).store(&mut self.mirror[at..]);
         if scene.plan.highlights {
@@ -144,7 +144,7 @@ impl Surfaces {
             (g.specular * own).store(&mut self.specular[at..]);
             g.shininess.store(&mut self.shininess[at..]);
         }
-        if RICH && scene.plan.refracts {
+        if C::ALL && scene.plan.refracts {
             (weight * g.transmission).store(&mut self.bodies.transmission[at..]);
             g.additive.store(&mut self.bodies.additive[at..]);
             self.bodies.pass::<L>(scene, wave, at, hit, !behind);
@@ -153,8 +153,8 @@ impl Surfaces {
 
     /// The unit normals of the surfaces themselves for packet `at`, turned against the rays.
     #[inline(always)]
-    pub fn geometric_normal<L: Lanes, const RICH: bool>(&self, scene: &Scene, at: usize) -> Vec3<L> {
-        Vec3::load(if RICH && scene.plan.smooth { &self.geometric } else { &self.normal }, at)
+    pub fn geometric_normal<L: Lanes, C: Contents>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        Vec3::load(if C::ALL && scene.plan.smooth { &self.geometric } else { &self.normal }, at)
     }
 }
 
@@ -215,9 +215,9 @@ impl<L: Lanes> Gathered<L> {
 
 /// Primitive `id`'s surface and material at the points `p`.
 #[inline(always)]
-fn gather<L: Lanes, const RICH: bool>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
-    let Painted { surface, material: m, color } = painted::<L, RICH>(scene, id, p);
-    let smooth = if RICH && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
+fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
+    let Painted { surface, material: m, color } = painted::<L, C>(scene, id, p);
+    let smooth = if C::ALL && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
     Gathered {
         point: surface.point,
         normal: surface.normal,
@@ -241,11 +241,11 @@ struct Painted<'a, L> {
     color: Vec3<L>,
 }
 
-/// Primitive `id` near the points `p`; a plane, sphere or triangle unless the scene is `RICH`.
+/// Primitive `id` near the points `p`; a plane, sphere or triangle unless the scene may hold more.
 #[inline(always)]
-fn painted<L: Lanes, const RICH: bool>(scene: &Scene, id: u32, p: Vec3<L>) -> Painted<'_, L> {
+fn painted<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Painted<'_, L> {
     let first = &scene.first;
-    if RICH && id >= first.quads {
+    if C::ALL && id >= first.quads {
         // Taken apart, so that nothing has to lie in memory for the others.
         let Painted { surface, material, color } = rare_painted(scene, id, p);
         Painted { surface, material, color }

@@ -3,6 +3,7 @@
 use super::body::Inside;
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Plan;
+use crate::trace::Contents;
 
 /// Rays on their way, and what they are worth.
 #[derive(Clone, Debug)]
@@ -54,7 +55,7 @@ impl Wave {
     /// Adds the lanes of a packet where `mask` is true, in order, as many as fit; their rays have no end. What is left
     /// of the mask.
     #[inline(always)]
-    pub fn append<L: Lanes, const RICH: bool>(&mut self, plan: &Plan, leaving: &Leaving<L>, mask: L::Mask) -> u32 {
+    pub fn append<L: Lanes, C: Contents>(&mut self, plan: &Plan, leaving: &Leaving<L>, mask: L::Mask) -> u32 {
         self.rays.common_origin = false;
         let to = self.rays.len;
         if mask.all() && to + L::WIDTH <= BATCH {
@@ -62,10 +63,10 @@ impl Wave {
             leaving.direction.store(&mut self.rays.direction, to);
             L::splat(f32::INFINITY).store(&mut self.rays.t_max[to..]);
             leaving.weight.store(&mut self.weight[to..]);
-            if RICH && plan.absorbs {
+            if C::ALL && plan.absorbs {
                 leaving.tint.store(&mut self.tint, to);
             }
-            if RICH && plan.refracts {
+            if C::ALL && plan.refracts {
                 self.inside[to..to + L::WIDTH].copy_from_slice(&leaving.inside[..L::WIDTH]);
             }
             self.pixel[to..to + L::WIDTH].copy_from_slice(&leaving.pixel[..L::WIDTH]);
@@ -76,7 +77,7 @@ impl Wave {
         leaving.origin.store(&mut o, 0);
         leaving.direction.store(&mut d, 0);
         leaving.weight.store(&mut w);
-        if RICH && plan.absorbs {
+        if C::ALL && plan.absorbs {
             leaving.tint.store(&mut tint, 0);
         }
         let mut left = mask.bits();
@@ -86,13 +87,13 @@ impl Wave {
             for axis in 0..3 {
                 self.rays.origin[axis][to] = o[axis][lane];
                 self.rays.direction[axis][to] = d[axis][lane];
-                if RICH && plan.absorbs {
+                if C::ALL && plan.absorbs {
                     self.tint[axis][to] = tint[axis][lane];
                 }
             }
             self.rays.t_max[to] = f32::INFINITY;
             self.weight[to] = w[lane];
-            if RICH && plan.refracts {
+            if C::ALL && plan.refracts {
                 self.inside[to] = leaving.inside[lane];
             }
             self.pixel[to] = leaving.pixel[lane];

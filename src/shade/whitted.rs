@@ -8,10 +8,9 @@ use super::refract::{Split, split};
 use super::surface::{Surfaces, absorbed};
 use super::wave::{Leaving, Observer, Wave};
 use super::{sky, spawn};
-use crate::geometry::Primitives;
 use crate::math::{BATCH, LaneMask, Lanes, Vec3};
 use crate::scene::{LEAST_WEIGHT, Scene};
-use crate::trace::{Ahead, Bounds, Candidates, Probe, nearest_hits};
+use crate::trace::{Ahead, Bounds, Contents, Everything, Intersect, Probe, Scratch, trace, with_contents};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,7 +55,7 @@ pub struct Workspace {
     queue: Queue,
     surfaces: Surfaces,
     lighting: Lighting,
-    candidates: Candidates,
+    scratch: Scratch,
     /// The eye of the last tile, and the bodies around it.
     eye: Option<(glam::Vec3, Inside)>,
 }
@@ -69,7 +68,7 @@ impl Default for Workspace {
             queue: Queue::default(),
             surfaces: Surfaces::default(),
             lighting: Lighting::default(),
-            candidates: Candidates::default(),
+            scratch: Scratch::default(),
             eye: None,
         }
     }
@@ -94,35 +93,25 @@ impl Workspace {
 ///
 /// A workspace goes with one scene.
 pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
-    if scene.plan.rich {
-        if scene.plan.refracts {
-            work.start_inside(scene);
-        }
-        follow::<L, true, true>(scene, work, observer)
-    } else if scene.triangles.is_empty() {
-        follow::<L, false, false>(scene, work, observer)
-    } else {
-        follow::<L, false, true>(scene, work, observer)
+    if scene.plan.refracts {
+        work.start_inside(scene);
     }
+    with_contents!(scene, scene.plan.rich, C => follow::<L, C>(scene, work, observer))
 }
 
-/// [`trace_waves`] for a scene that is `RICH` ([`crate::scene::Plan::rich`]) or not; `MESH` where it is or has triangles.
-fn follow<L: Lanes, const RICH: bool, const MESH: bool>(
-    scene: &Scene,
-    work: &mut Workspace,
-    observer: &mut impl Observer,
-) -> Counts {
+/// [`trace_waves`] for a scene of such contents.
+fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
-    let Workspace { primary, radiance, queue, surfaces, lighting, candidates, .. } = work;
+    let Workspace { primary, radiance, queue, surfaces, lighting, scratch, .. } = work;
     for axis in radiance.iter_mut() {
         axis[..primary.rays.len].fill(0.0);
     }
     observer.primary(&primary.rays);
-    let mut stage = Stage { scene, radiance, queue, surfaces, lighting, candidates };
+    let mut stage = Stage { scene, radiance, queue, surfaces, lighting, scratch };
     let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
     // All waves go through one call, which is compiled in place.
     loop {
-        counts.shadow += stage.shade::<L, RICH, MESH>(queued.as_deref().unwrap_or(primary), depth, observer);
+        counts.shadow += stage.shade::<L, C>(queued.as_deref().unwrap_or(primary), depth, observer);
         if let Some(wave) = queued.take() {
             stage.queue.give_back(wave);
         }
@@ -148,57 +137,52 @@ struct Stage<'a> {
     queue: &'a mut Queue,
     surfaces: &'a mut Surfaces,
     lighting: &'a mut Lighting,
-    candidates: &'a mut Candidates,
+    scratch: &'a mut Scratch,
 }
 
 impl Stage<'_> {
     /// Traces and shades a wave, and queues the rays that go on from there; the number of shadow rays.
     #[inline(always)]
-    fn shade<L: Lanes, const RICH: bool, const MESH: bool>(
-        &mut self,
-        wave: &Wave,
-        depth: u32,
-        observer: &mut impl Observer,
-    ) -> u64 {
+    fn shade<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
         let scene = self.scene;
-        if !self.arrive::<L, RICH, MESH>(wave, depth) {
+        if !self.arrive::<L, C>(wave, depth) {
             return 0;
         }
         self.lighting.start(scene, wave.rays.len, self.surfaces.glossy);
         let mut shadow = 0;
         for light in 0..scene.lights.len() {
-            shadow += self.lighting.add::<L, RICH, MESH>(scene, light, wave, self.surfaces, self.candidates, observer);
+            shadow += self.lighting.add::<L, C>(scene, light, wave, self.surfaces, self.scratch, observer);
         }
-        self.leave::<L, RICH>(wave, depth);
+        self.leave::<L, C>(wave, depth);
         shadow
     }
 
     /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
     #[inline(always)]
-    fn arrive<L: Lanes, const RICH: bool, const MESH: bool>(&mut self, wave: &Wave, depth: u32) -> bool {
-        let Self { scene, radiance, surfaces, candidates, .. } = self;
+    fn arrive<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32) -> bool {
+        let Self { scene, radiance, surfaces, scratch, .. } = self;
         let mut any = false;
         surfaces.start(wave.rays.len);
-        nearest_hits::<L, RICH, MESH>(
+        trace::<Intersect, L, C>(
             scene,
             &wave.rays,
             Ahead::NOTHING,
             || Bounds::of::<L>(&wave.rays),
-            candidates,
+            scratch,
             #[inline(always)]
             |at, active, hit| {
                 if hit.found.any() {
                     any = true;
-                    surfaces.find::<L, RICH>(scene, wave, at, hit);
+                    surfaces.find::<L, C>(scene, wave, at, hit);
                 }
                 let missed = active & !hit.found;
                 if missed.any() {
                     let sky = sky::radiance(&scene.sky, Vec3::load(&wave.rays.direction, at));
                     let mut seen = sky * L::load(&wave.weight[at..]);
-                    if RICH && scene.plan.absorbs {
+                    if C::ALL && scene.plan.absorbs {
                         seen = seen.times(endless::<L>(scene, wave, at));
                     }
-                    deposit::<L, RICH>(wave, at, seen, missed, radiance, depth == 1);
+                    deposit::<L, C>(wave, at, seen, missed, radiance, depth == 1);
                 }
             },
         );
@@ -207,7 +191,7 @@ impl Stage<'_> {
 
     /// Gives the light that the surfaces send back to their pixels, and queues the rays that go on.
     #[inline(always)]
-    fn leave<L: Lanes, const RICH: bool>(&mut self, wave: &Wave, depth: u32) {
+    fn leave<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32) {
         let Self { scene, radiance, queue, surfaces, lighting, .. } = self;
         let last = depth == scene.plan.waves;
         // What mirrors send on is no more than what came.
@@ -223,14 +207,14 @@ impl Stage<'_> {
             if surfaces.glossy {
                 sent = Vec3::load(&lighting.highlight, at).mul_add(L::load(&surfaces.specular[at..]), sent);
             }
-            if RICH && scene.plan.absorbs {
+            if C::ALL && scene.plan.absorbs {
                 sent = sent.times(Vec3::load(&surfaces.bodies.tint, at));
             }
-            deposit::<L, RICH>(wave, at, sent, hit, radiance, depth == 1);
+            deposit::<L, C>(wave, at, sent, hit, radiance, depth == 1);
             if last {
                 continue;
             }
-            if RICH && scene.plan.refracts {
+            if C::ALL && scene.plan.refracts {
                 divide::<L>(scene, wave, surfaces, at, depth + 1, queue);
                 continue;
             }
@@ -239,15 +223,15 @@ impl Stage<'_> {
             if goes_on.any() {
                 let (direction, point) = (Vec3::load(&wave.rays.direction, at), Vec3::load(&surfaces.point, at));
                 let normal = Vec3::load(&surfaces.normal, at);
-                let geometric = surfaces.geometric_normal::<L, RICH>(scene, at);
-                let direction = match RICH {
+                let geometric = surfaces.geometric_normal::<L, C>(scene, at);
+                let direction = match C::ALL {
                     false => spawn::mirror(direction, normal),
                     true => spawn::mirror_above(direction, normal, geometric),
                 };
                 let origin = geometric.mul_add(lift, point);
                 let (inside, pixel) = (&wave.inside[at..], &wave.pixel[at..]);
                 let leaving = Leaving { origin, direction, weight, tint: color, inside, pixel };
-                next.append::<L, RICH>(&scene.plan, &leaving, goes_on);
+                next.append::<L, C>(&scene.plan, &leaving, goes_on);
             }
         }
         queue.put(depth + 1, next);
@@ -259,7 +243,7 @@ impl Stage<'_> {
 fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, depth: u32, queue: &mut Queue) {
     let lift = L::load(&surfaces.lift[at..]);
     let hit = lift.ge(L::zero());
-    let geometric = surfaces.geometric_normal::<L, true>(scene, at);
+    let geometric = surfaces.geometric_normal::<L, Everything>(scene, at);
     let bodies = &surfaces.bodies;
     let Split { mirror, reflected, transmitted, refracted } = split(
         Vec3::load(&wave.rays.direction, at),
@@ -300,7 +284,7 @@ fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
 
 /// Adds a packet's radiance to its pixels; `in_order` says that ray i belongs to pixel i.
 #[inline(always)]
-fn deposit<L: Lanes, const RICH: bool>(
+fn deposit<L: Lanes, C: Contents>(
     wave: &Wave,
     at: usize,
     rgb: Vec3<L>,
@@ -316,7 +300,7 @@ fn deposit<L: Lanes, const RICH: bool>(
     // Packing keeps the order, so a packet whose ends are a width apart is a run of pixels; but where two kinds of rays
     // go on, a wave may hold those of several others, one after another.
     let first = usize::from(wave.pixel[at]);
-    let run = !RICH && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1;
+    let run = !C::ALL && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1;
     if mask.all() && run {
         (Vec3::load(radiance, first) + rgb).store(radiance, first);
         return;

@@ -1,7 +1,7 @@
 //! What holds for all rays of a batch: boxes around their origins and directions, and a ball and a cone around those.
 
-use crate::geometry::triangle::TriangleRecord;
-use crate::geometry::{Planes, Primitives, Triangles};
+use crate::geometry::triangle::normal;
+use crate::geometry::{Balls, Planes, Primitives, Triangles};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3, three};
 
 /// Bounds of the active rays of a batch.
@@ -25,7 +25,7 @@ impl Bounds {
     #[inline(always)]
     pub fn miss_plane(&self, planes: &Planes, i: usize) -> bool {
         let normal = Vec3::from(planes.normal(i));
-        let height = Planes::seen(&planes.record(i), self.origin.middle).height;
+        let height = Planes::seen(&planes.shape(i), (), self.origin.middle).height;
         self.turn_away(normal, height, planes.distance[i].abs())
     }
 
@@ -33,7 +33,8 @@ impl Bounds {
     /// origin, pass the same edge on the outside.
     #[inline(always)]
     pub fn miss_triangle(&self, triangles: &Triangles, i: usize) -> bool {
-        let TriangleRecord { corners, n, .. } = triangles.record(i);
+        let corners = triangles.shape(i).corners();
+        let n = normal(corners);
         let [a, b, c] = three(corners, |corner| corner - self.origin.middle);
         let height = a.dot(n);
         let size = a.max_abs().max(b.max_abs()).max(c.max_abs());
@@ -56,6 +57,28 @@ impl Bounds {
             || outside(a.cross(b), slack)
             || outside(b.cross(c), slack)
             || outside(c.cross(a), slack)
+    }
+
+    /// Shows the balls that the batch's cone meets, or all without a cone, in order.
+    #[inline(always)]
+    pub fn balls_met<L: Lanes>(&self, balls: &Balls, show: &mut impl FnMut(usize)) {
+        let count = balls.len();
+        let Some(cone) = &self.cone else {
+            (0..count).for_each(show);
+            return;
+        };
+        let Balls { center: [x, y, z], radius, .. } = balls;
+        let origin = Vec3::splat(self.origin.middle.into());
+        for at in (0..count).step_by(L::WIDTH) {
+            let center = Vec3::new(L::load(&x[at..]), L::load(&y[at..]), L::load(&z[at..]));
+            let radius = L::load(&radius[at..]) + L::splat(self.spread);
+            let real = u32::MAX >> (32 - (count - at).min(L::WIDTH));
+            let mut met = (!cone.misses(center - origin, radius)).bits() & real;
+            while met != 0 {
+                show(at + met.trailing_zeros() as usize);
+                met &= met - 1;
+            }
+        }
     }
 
     /// Whether all origins lie on one side of a plane and no direction leads to the other, `height` being −(n·o + d)

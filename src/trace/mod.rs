@@ -6,36 +6,37 @@
 
 mod ahead;
 mod bounds;
-mod boxes;
 mod candidates;
+mod contents;
+mod packet;
 mod packets;
 mod query;
+mod scratch;
 mod single;
 mod tree;
 
 pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
-pub use candidates::Candidates;
+pub use scratch::Scratch;
 pub use single::{Hit, Probe, intersect_one, occluded_one};
 
-use crate::geometry::Primitives;
 use crate::math::{LaneMask, Lanes};
 use crate::scene::Scene;
 pub(crate) use ahead::Ahead;
 pub(crate) use bounds::{Bounds, Extent, Span};
-use candidates::View;
-pub(crate) use query::Nearest;
+pub(crate) use contents::{Contents, Everything, Meshes, Simple, with_contents};
+pub(crate) use query::{Intersect, Nearest, Occluded, Query};
 
 /// The nearest hit of every active ray, in packets of `L::WIDTH`.
 ///
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
 /// rays of the batch, unless it has NaN or infinite components. `hits` of inactive rays are left as they were.
-pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Candidates) {
+pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Scratch) {
     intersect_before::<L>(scene, rays, Ahead::NOTHING, hits, scratch);
 }
 
 /// [`intersect()`] for many batches, one after the other: each is brought near while the one before it is traced, which
 /// is worth a twentieth to a sixth of the time where they come from memory. Stops where either slice ends.
-pub fn intersect_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Candidates) {
+pub fn intersect_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Scratch) {
     let mut rest = hits;
     for (i, batch) in rays.iter().enumerate() {
         let Some((hits, later)) = rest.split_first_mut() else { return };
@@ -49,62 +50,46 @@ fn intersect_before<L: Lanes>(
     rays: &RayBatch,
     ahead: Ahead,
     hits: &mut HitBatch,
-    scratch: &mut Candidates,
+    scratch: &mut Scratch,
 ) {
-    match (scene.plan.rare, scene.triangles.is_empty()) {
-        (false, true) => nearest_of::<L, false, false>(scene, rays, ahead, hits, scratch),
-        (false, false) => nearest_of::<L, false, true>(scene, rays, ahead, hits, scratch),
-        (true, _) => nearest_of::<L, true, true>(scene, rays, ahead, hits, scratch),
+    if scene.bvh.is_some() {
+        // The answers lie side by side: written at the tree's own width.
+        return nearest_of::<L, L::Wider, Everything>(scene, rays, ahead, hits, scratch);
     }
+    with_contents!(scene, scene.plan.rare, C => nearest_of::<L, L, C>(scene, rays, ahead, hits, scratch))
 }
 
-fn nearest_of<L: Lanes, const RARE: bool, const MESH: bool>(
+fn nearest_of<L: Lanes, W: Lanes, C: Contents>(
     scene: &Scene,
     rays: &RayBatch,
     ahead: Ahead,
     hits: &mut HitBatch,
-    scratch: &mut Candidates,
+    scratch: &mut Scratch,
 ) {
-    match &scene.bvh {
-        // The answers lie side by side: written at the tree's own width.
-        Some(bvh) => tree::nearest::<L::Wider, RARE>(
-            scene,
-            bvh,
-            rays,
-            ahead,
-            || Bounds::of::<L>(rays),
-            scratch.tree(),
-            #[inline(always)]
-            |at, active, hit| keep(hits, at, active, hit),
-        ),
-        None => nearest_hits::<L, RARE, MESH>(
-            scene,
-            rays,
-            ahead,
-            || Bounds::of::<L>(rays),
-            scratch,
-            #[inline(always)]
-            |at, active, hit| keep(hits, at, active, hit),
-        ),
-    }
-}
-
-#[inline(always)]
-fn keep<L: Lanes>(hits: &mut HitBatch, at: usize, active: L::Mask, hit: &Nearest<L>) {
-    let t = hit.t.select(hit.found, L::splat(f32::INFINITY));
-    L::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
+    trace::<Intersect, W, C>(
+        scene,
+        rays,
+        ahead,
+        || Bounds::of::<L>(rays),
+        scratch,
+        #[inline(always)]
+        |at, active, hit| {
+            let t = hit.t.select(hit.found, W::splat(f32::INFINITY));
+            W::store_hits(t, hit.primitive, active, &mut hits.t[at..], &mut hits.primitive[at..]);
+        },
+    );
 }
 
 /// Whether anything lies in the interval of each active ray, in packets of `L::WIDTH`; a packet is left as soon as
 /// all its rays are blocked.
 ///
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
-pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Candidates) {
+pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Scratch) {
     occluded_before::<L>(scene, rays, Ahead::NOTHING, blocked, scratch);
 }
 
 /// [`occluded()`] for many batches, as [`intersect_stream`].
-pub fn occluded_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], blocked: &mut [Blocked], scratch: &mut Candidates) {
+pub fn occluded_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], blocked: &mut [Blocked], scratch: &mut Scratch) {
     for (i, (batch, blocked)) in rays.iter().zip(blocked).enumerate() {
         occluded_before::<L>(scene, batch, Ahead::of(rays.get(i + 1), None), blocked, scratch);
     }
@@ -115,71 +100,52 @@ fn occluded_before<L: Lanes>(
     rays: &RayBatch,
     ahead: Ahead,
     blocked: &mut Blocked,
-    scratch: &mut Candidates,
+    scratch: &mut Scratch,
 ) {
-    match (scene.plan.rare, scene.triangles.is_empty()) {
-        (false, true) => any_of::<L, false, false>(scene, rays, ahead, blocked, scratch),
-        (false, false) => any_of::<L, false, true>(scene, rays, ahead, blocked, scratch),
-        (true, _) => any_of::<L, true, true>(scene, rays, ahead, blocked, scratch),
+    if scene.bvh.is_some() {
+        return any_of::<L, Everything>(scene, rays, ahead, blocked, scratch);
     }
+    with_contents!(scene, scene.plan.rare, C => any_of::<L, C>(scene, rays, ahead, blocked, scratch))
 }
 
-fn any_of<L: Lanes, const RARE: bool, const MESH: bool>(
+fn any_of<L: Lanes, C: Contents>(
     scene: &Scene,
     rays: &RayBatch,
     ahead: Ahead,
     blocked: &mut Blocked,
-    scratch: &mut Candidates,
+    scratch: &mut Scratch,
 ) {
-    any_hits::<L, RARE, MESH>(
+    trace::<Occluded, L, C>(
         scene,
         rays,
         ahead,
         || Bounds::of::<L>(rays),
         scratch,
         #[inline(always)]
-        |at, active, settled| blocked.set(at, active.bits(), settled.bits()),
+        |at, active, found| blocked.set(at, active.bits(), found.settled.bits()),
     );
 }
 
-/// [`intersect()`] for rays whose bounds may be known; they are only asked for where they are needed. `RARE` must be
-/// true where the plan is rare, `MESH` where that is or there are triangles; both may be true without need. `take`
-/// gets every packet's answer while it is in registers; `ahead` is what comes after this batch.
+/// A query for rays whose bounds may be known; they are only asked for where they are needed. `take` gets every packet's
+/// answer while it is in registers; `ahead` is what comes after this batch.
 #[inline(always)]
-pub(crate) fn nearest_hits<L: Lanes, const RARE: bool, const MESH: bool>(
+pub(crate) fn trace<Q: Query, L: Lanes, C: Contents>(
     scene: &Scene,
     rays: &RayBatch,
     ahead: Ahead,
     bounds: impl FnOnce() -> Option<Bounds>,
-    scratch: &mut Candidates,
-    take: impl FnMut(usize, L::Mask, &Nearest<L>),
+    scratch: &mut Scratch,
+    take: impl FnMut(usize, L::Mask, &Q::Found<L>),
 ) {
     if let Some(bvh) = &scene.bvh {
-        return tree::nearest::<L, RARE>(scene, bvh, rays, ahead, bounds, scratch.tree(), take);
+        return tree::trace::<Q, L>(scene, bvh, rays, ahead, bounds, scratch.tree(), take);
     }
     let Some(bounds) = bounds() else { return };
-    match scratch.gather::<L>(scene, &bounds) {
-        View::Shared(candidates) => packets::nearest::<_, L, RARE, MESH>(scene, candidates, rays, ahead, take),
-        View::Apart(candidates) => packets::nearest::<_, L, RARE, MESH>(scene, candidates, rays, ahead, take),
-    }
-}
-
-/// [`occluded()`] in the same way.
-#[inline(always)]
-pub(crate) fn any_hits<L: Lanes, const RARE: bool, const MESH: bool>(
-    scene: &Scene,
-    rays: &RayBatch,
-    ahead: Ahead,
-    bounds: impl FnOnce() -> Option<Bounds>,
-    scratch: &mut Candidates,
-    take: impl FnMut(usize, L::Mask, L::Mask),
-) {
-    if let Some(bvh) = &scene.bvh {
-        return tree::any::<L, RARE>(scene, bvh, rays, ahead, bounds, scratch.tree(), take);
-    }
-    let Some(bounds) = bounds() else { return };
-    match scratch.gather::<L>(scene, &bounds) {
-        View::Shared(candidates) => packets::any::<_, L, RARE, MESH>(scene, candidates, rays, ahead, take),
-        View::Apart(candidates) => packets::any::<_, L, RARE, MESH>(scene, candidates, rays, ahead, take),
+    if bounds.shared {
+        scratch.common.fill::<L>(scene, &bounds);
+        packets::trace::<Q, _, L, C>(scene, &scratch.common, rays, ahead, take);
+    } else {
+        scratch.any.fill::<L>(scene, &bounds);
+        packets::trace::<Q, _, L, C>(scene, &scratch.any, rays, ahead, take);
     }
 }

@@ -1,196 +1,192 @@
 //! Packets against candidates, one by one.
 
 use super::ahead::Ahead;
-use super::boxes::Boxes;
-use super::candidates::{Form, Lists};
-use super::query::{Any, Nearest, Query};
-use crate::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
+use super::candidates::{Candidate, Form, List, Lists};
+use super::contents::Contents;
+use super::packet::{Packet, Within};
+use super::query::{Found, Query};
+use crate::geometry::face::Aim;
+use crate::geometry::{Bounded, Primitives, Standard, Test};
+use crate::kinds::for_each_kind;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Scene;
 
-/// A packet's rays, as the primitives' tests take them.
-#[derive(Clone, Copy)]
-pub(super) struct Packet<L> {
-    pub origin: Vec3<L>,
-    pub direction: Vec3<L>,
-    pub t_min: L,
-    pub t_max: L,
-}
-
-/// The candidates; the common kinds as slices, so that where they lie is known outside the loop over the packets.
-struct Found<'a, F: Form> {
-    planes: &'a [(F::Of<Planes>, u32)],
-    spheres: &'a [(F::Of<Spheres>, u32)],
-    triangles: &'a [(F::Of<Triangles>, u32)],
-    lists: &'a Lists<F>,
-}
-
-impl<'a, F: Form> Found<'a, F> {
-    #[inline(always)]
-    fn of(lists: &'a Lists<F>) -> Self {
-        Self { planes: &lists.planes, spheres: &lists.spheres, triangles: &lists.triangles, lists }
-    }
-
-    /// Shows every candidate to the query, in rising order of ids, until it is done.
-    ///
-    /// `MESH` says that there are triangles, `RARE` that there is more than those, planes and spheres, or something seen
-    /// from one side alone.
-    #[inline(always)]
-    fn visit<L: Lanes, Q: Query<L>, const RARE: bool, const MESH: bool>(
-        &self,
-        scene: &Scene,
-        packet: Packet<L>,
-        query: &mut Q,
-    ) {
-        each::<F, Planes, L, Q, RARE>(self.planes, &packet, query);
-        if query.done() {
-            return;
+/// Gives `take` what every packet with an active ray has found: its first ray, the active lanes and the answer.
+#[inline(always)]
+pub fn trace<Q: Query, F: Form, L: Lanes, C: Contents>(
+    scene: &Scene,
+    candidates: &Lists<F>,
+    rays: &RayBatch,
+    mut ahead: Ahead,
+    mut take: impl FnMut(usize, L::Mask, &Q::Found<L>),
+) {
+    debug_assert!(C::hold(scene));
+    // The common kinds as slices, so that where they lie is known outside the loop over the packets.
+    let common =
+        (&candidates.planes.standard[..], &candidates.spheres.standard[..], &candidates.triangles.standard[..]);
+    for at in (0..rays.len).step_by(L::WIDTH) {
+        ahead.step(L::WIDTH / 2);
+        let t_max = L::load(&rays.t_max[at..]);
+        let active = t_max.ge(L::zero());
+        if !active.any() {
+            continue;
         }
-        each::<F, Spheres, L, Q, RARE>(self.spheres, &packet, query);
-        if query.done() {
-            return;
-        }
-        if MESH {
-            each::<F, Triangles, L, Q, RARE>(self.triangles, &packet, query);
-        }
-        if RARE && self.lists.more && !query.done() {
-            self.lists.visit_rare(scene, &packet, query);
-        }
+        let mut found = Q::Found::nothing(t_max, active);
+        let packet = Packet {
+            // Only boxes need it of rays that share it.
+            origin: if C::ALL { rays.origins(at) } else { Vec3::load(&rays.origin, at) },
+            direction: Vec3::load(&rays.direction, at),
+            t_min: L::load(&rays.t_min[at..]),
+            t_max,
+        };
+        visit::<F, L, Q::Found<L>, C>(scene, candidates, common, packet, &mut found);
+        take(at, active, &found);
     }
 }
 
-impl<F: Form> Lists<F> {
-    #[inline(never)]
-    fn visit_rare<L: Lanes, Q: Query<L>>(&self, scene: &Scene, packet: &Packet<L>, query: &mut Q) {
-        let boxes = Boxes::new(scene, packet);
-        each_boxed::<F, Quads, L, Q>(&self.quads, &boxes, packet, query);
-        if query.done() {
-            return;
+/// The default lists of the kinds that most scenes have.
+type Common<'a, F> = (
+    &'a [Candidate<F, crate::geometry::Planes, Standard>],
+    &'a [Candidate<F, crate::geometry::Spheres, Standard>],
+    &'a [Candidate<F, crate::geometry::Triangles, Standard>],
+);
+
+/// Shows every candidate to the query, in rising order of ids, until it is done.
+#[inline(always)]
+fn visit<F: Form, L: Lanes, A: Found<L>, C: Contents>(
+    scene: &Scene,
+    lists: &Lists<F>,
+    (planes, spheres, triangles): Common<F>,
+    packet: Packet<L>,
+    found: &mut A,
+) {
+    each::<F, _, _, L, A, C>(Standard, planes, &packet, found);
+    if found.done() {
+        return;
+    }
+    each::<F, _, _, L, A, C>(Standard, spheres, &packet, found);
+    if C::ALL && !lists.spheres.named.is_empty() {
+        each_named::<F, _, L, A>(&scene.spheres, &lists.spheres, &packet, found);
+    }
+    if found.done() {
+        return;
+    }
+    if C::TRIANGLES {
+        each::<F, _, _, L, A, C>(Standard, triangles, &packet, found);
+        if C::ALL && !lists.triangles.named.is_empty() {
+            each_named::<F, _, L, A>(&scene.triangles, &lists.triangles, &packet, found);
         }
-        each_boxed::<F, Cuboids, L, Q>(&self.cuboids, &boxes, packet, query);
-        if query.done() {
-            return;
-        }
-        each_boxed::<F, Cylinders, L, Q>(&self.cylinders, &boxes, packet, query);
-        if query.done() {
-            return;
-        }
-        each_boxed::<F, Cones, L, Q>(&self.cones, &boxes, packet, query);
-        if query.done() {
-            return;
-        }
-        each_boxed::<F, Tori, L, Q>(&self.tori, &boxes, packet, query);
-        if query.done() {
-            return;
-        }
-        each_boxed::<F, Fractals, L, Q>(&self.fractals, &boxes, packet, query);
+    }
+    if C::ALL && lists.more && !found.done() {
+        visit_more::<F, L, A>(scene, lists, &packet, found);
     }
 }
+
+macro_rules! more {
+    (
+        unbounded { $_p:tt }
+        bounded { $_s:tt $_t:tt $(($field:ident: $Storage:ident, $($_f:tt)*))* }
+    ) => {
+        /// The kinds after the triangles.
+        #[inline(never)]
+        fn visit_more<F: Form, L: Lanes, A: Found<L>>(
+            scene: &Scene,
+            lists: &Lists<F>,
+            packet: &Packet<L>,
+            found: &mut A,
+        ) {
+            let faces = Aim::new(packet.direction);
+            $(
+                each_boxed::<F, _, L, A>(&scene.$field, scene.first.$field, &lists.$field, &faces, packet, found);
+                if found.done() {
+                    return;
+                }
+            )*
+        }
+    };
+}
+for_each_kind!(more);
 
 /// Shows every primitive of one kind to the query, which is not done yet, until it is.
 #[inline(always)]
-fn each<F: Form, K: Primitives, L: Lanes, Q: Query<L>, const SIDED: bool>(
-    records: &[(F::Of<K>, u32)],
+fn each<F: Form, K: Primitives, T: Test<K>, L: Lanes, A: Found<L>, C: Contents>(
+    test: T,
+    candidates: &[Candidate<F, K, T>],
     packet: &Packet<L>,
-    query: &mut Q,
+    found: &mut A,
 ) {
-    if records.is_empty() {
+    if candidates.is_empty() {
         return;
     }
     let aim = K::aim(packet.direction);
-    for (record, id) in records {
-        let seen = F::seen::<K, L>(record, packet.origin);
-        if let Some((t, inside)) = K::nearest::<L, SIDED>(&seen, &aim, packet.t_min, query.t_max()) {
-            query.hit(t, inside, *id);
-            if query.done() {
+    for (record, variant, id) in candidates {
+        // Where nothing is out of the common, all have the default.
+        let variant = if C::ALL { *variant } else { K::Variant::default() };
+        let seen = F::seen::<K, T, L>(test, record, variant, packet.origin);
+        if let Some((t, inside)) = test.nearest(&seen, variant, &aim, packet.t_min, found.t_max()) {
+            found.hit(t, inside, *id);
+            if found.done() {
                 return;
             }
         }
     }
 }
 
-/// The same for a kind whose hits count only within their boxes; see [`super::boxes`].
-#[inline(always)]
-fn each_boxed<F: Form, K: Primitives, L: Lanes, Q: Query<L>>(
-    records: &[(F::Of<K>, u32)],
-    boxes: &Boxes<L>,
+/// The same by the method that was asked for.
+#[inline(never)]
+fn each_named<F: Form, K: Primitives, L: Lanes, A: Found<L>>(
+    kind: &K,
+    list: &List<F, K>,
     packet: &Packet<L>,
-    query: &mut Q,
+    found: &mut A,
 ) {
-    if records.is_empty() {
+    if let Some(test) = kind.named() {
+        each::<F, K, K::Named, L, A, super::Everything>(test, &list.named, packet, found);
+    }
+}
+
+/// The same for a kind whose hits count only within their boxes; see [`super::packet`].
+#[inline(always)]
+fn each_boxed<F: Form, K: Bounded, L: Lanes, A: Found<L>>(
+    kind: &K,
+    first: u32,
+    list: &List<F, K>,
+    faces: &Aim<L>,
+    packet: &Packet<L>,
+    found: &mut A,
+) {
+    boxed::<F, K, _, L, A>(Standard, kind, first, &list.standard, faces, packet, found);
+    if let Some(test) = kind.named() {
+        boxed::<F, K, _, L, A>(test, kind, first, &list.named, faces, packet, found);
+    }
+}
+
+#[inline(always)]
+fn boxed<F: Form, K: Bounded, T: Test<K>, L: Lanes, A: Found<L>>(
+    test: T,
+    kind: &K,
+    first: u32,
+    candidates: &[Candidate<F, K, T>],
+    faces: &Aim<L>,
+    packet: &Packet<L>,
+    found: &mut A,
+) {
+    if candidates.is_empty() {
         return;
     }
     let aim = K::aim(packet.direction);
-    for (record, id) in records {
-        let Some(within) = boxes.meet(*id, packet.t_min, query.t_max()) else { continue };
-        let seen = F::seen::<K, L>(record, packet.origin);
+    for (record, variant, id) in candidates {
+        let bounds = kind.around((id - first) as usize).map(Vec3::splat);
+        let Some(within) = Within::of(bounds, packet.origin, faces, packet.t_min, found.t_max()) else { continue };
+        let seen = F::seen::<K, T, L>(test, record, *variant, packet.origin);
         // As far as the ray goes: the box may bring a hit before another that was found.
-        if let Some((t, inside)) = K::nearest::<L, true>(&seen, &aim, packet.t_min, packet.t_max) {
+        if let Some((t, inside)) = test.nearest(&seen, *variant, &aim, packet.t_min, packet.t_max) {
             let (t, inside) = within.keep(t, inside);
-            let inside = inside & t.lt(query.t_max());
-            query.hit(t, inside, *id);
-            if query.done() {
+            let inside = inside & t.lt(found.t_max());
+            found.hit(t, inside, *id);
+            if found.done() {
                 return;
             }
         }
-    }
-}
-
-/// Gives `take` the nearest hits of every packet with an active ray: its first ray, the active lanes and the answer.
-#[inline(always)]
-pub fn nearest<F: Form, L: Lanes, const RARE: bool, const MESH: bool>(
-    scene: &Scene,
-    candidates: &Lists<F>,
-    rays: &RayBatch,
-    mut ahead: Ahead,
-    mut take: impl FnMut(usize, L::Mask, &Nearest<L>),
-) {
-    let candidates = Found::of(candidates);
-    for at in (0..rays.len).step_by(L::WIDTH) {
-        ahead.step(L::WIDTH / 2);
-        let t_max = L::load(&rays.t_max[at..]);
-        let active = t_max.ge(L::zero());
-        if !active.any() {
-            continue;
-        }
-        // Nothing lies before −∞, so inactive lanes take no hit.
-        let mut query = Nearest::new(t_max.select(active, L::splat(f32::NEG_INFINITY)));
-        candidates.visit::<L, _, RARE, MESH>(scene, packet::<L, RARE>(rays, at), &mut query);
-        take(at, active, &query);
-    }
-}
-
-/// Gives `take` the blocked lanes of every packet with an active ray: its first ray, the active lanes, the blocked
-/// ones (inactive lanes may be either).
-#[inline(always)]
-pub fn any<F: Form, L: Lanes, const RARE: bool, const MESH: bool>(
-    scene: &Scene,
-    candidates: &Lists<F>,
-    rays: &RayBatch,
-    mut ahead: Ahead,
-    mut take: impl FnMut(usize, L::Mask, L::Mask),
-) {
-    let candidates = Found::of(candidates);
-    for at in (0..rays.len).step_by(L::WIDTH) {
-        ahead.step(L::WIDTH / 2);
-        let t_max = L::load(&rays.t_max[at..]);
-        let active = t_max.ge(L::zero());
-        if !active.any() {
-            continue;
-        }
-        let mut query = Any { settled: !active, t_max };
-        candidates.visit::<L, _, RARE, MESH>(scene, packet::<L, RARE>(rays, at), &mut query);
-        take(at, active, query.settled);
-    }
-}
-
-#[inline(always)]
-fn packet<L: Lanes, const RARE: bool>(rays: &RayBatch, at: usize) -> Packet<L> {
-    Packet {
-        // Only boxes need it of rays that share it.
-        origin: if RARE { rays.origins(at) } else { Vec3::load(&rays.origin, at) },
-        direction: Vec3::load(&rays.direction, at),
-        t_min: L::load(&rays.t_min[at..]),
-        t_max: L::load(&rays.t_max[at..]),
     }
 }

@@ -2,8 +2,36 @@
 
 use crate::math::{LaneMask, Lanes, NONE};
 
+/// One of the two queries.
+pub trait Query: 'static {
+    /// Whether any hit will do, so that a ray is done with its first.
+    const ANY: bool;
+    /// What a packet has found.
+    type Found<L: Lanes>: Found<L>;
+}
+
+/// The nearest hit.
+pub struct Intersect;
+
+impl Query for Intersect {
+    const ANY: bool = false;
+    type Found<L: Lanes> = Nearest<L>;
+}
+
+/// Whether there is any hit.
+pub struct Occluded;
+
+impl Query for Occluded {
+    const ANY: bool = true;
+    type Found<L: Lanes> = Blockers<L>;
+}
+
 /// What a packet does with the hits that the primitives' tests report.
-pub trait Query<L: Lanes> {
+pub trait Found<L: Lanes> {
+    /// No hit yet, in intervals that end at `t_max`; only where `active`.
+    fn nothing(t_max: L, active: L::Mask) -> Self;
+    /// From columns: the distances and ids of nearest hits, or −∞ for a blocked ray.
+    fn load(t: &[f32], id: &[u32]) -> Self;
     /// Where the interval ends for the next test.
     fn t_max(&self) -> L;
     /// Takes hits at `t`, all inside the interval, where `inside` is true.
@@ -12,7 +40,7 @@ pub trait Query<L: Lanes> {
     fn done(&self) -> bool;
 }
 
-/// The nearest hit.
+/// The nearest hits of a packet.
 pub struct Nearest<L: Lanes> {
     /// Its distance, or the end of the interval.
     pub t: L,
@@ -22,15 +50,17 @@ pub struct Nearest<L: Lanes> {
     pub found: L::Mask,
 }
 
-impl<L: Lanes> Nearest<L> {
-    /// No hit yet, in intervals that end at `t_max`.
+impl<L: Lanes> Found<L> for Nearest<L> {
     #[inline(always)]
-    pub fn new(t_max: L) -> Self {
-        Self { t: t_max, primitive: L::splat_id(NONE), found: L::Mask::from_bits(0) }
+    fn nothing(t_max: L, active: L::Mask) -> Self {
+        // Nothing lies before −∞, so inactive lanes take no hit.
+        let t = t_max.select(active, L::splat(f32::NEG_INFINITY));
+        Self { t, primitive: L::splat_id(NONE), found: L::Mask::from_bits(0) }
     }
-}
-
-impl<L: Lanes> Query<L> for Nearest<L> {
+    #[inline(always)]
+    fn load(t: &[f32], id: &[u32]) -> Self {
+        Self { t: L::load(t), primitive: L::load_ids(id), found: !L::id_mask(id, NONE) }
+    }
     #[inline(always)]
     fn t_max(&self) -> L {
         self.t
@@ -47,15 +77,23 @@ impl<L: Lanes> Query<L> for Nearest<L> {
     }
 }
 
-/// Whether there is any hit.
-pub struct Any<L: Lanes> {
+/// Which rays of a packet are blocked.
+pub struct Blockers<L: Lanes> {
     /// Lanes that are blocked, or inactive.
     pub settled: L::Mask,
-    /// The end of the interval.
-    pub t_max: L,
+    t_max: L,
 }
 
-impl<L: Lanes> Query<L> for Any<L> {
+impl<L: Lanes> Found<L> for Blockers<L> {
+    #[inline(always)]
+    fn nothing(t_max: L, active: L::Mask) -> Self {
+        Self { settled: !active, t_max }
+    }
+    #[inline(always)]
+    fn load(t: &[f32], _: &[u32]) -> Self {
+        let t_max = L::load(t);
+        Self { settled: t_max.lt(L::zero()), t_max }
+    }
     #[inline(always)]
     fn t_max(&self) -> L {
         self.t_max

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use wide::f32x8;
 
-use super::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded};
+use super::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use crate::scene::Scene;
 
 /// One hit.
@@ -21,7 +21,7 @@ pub struct Probe {
     rays: RayBatch,
     hits: HitBatch,
     blocked: Blocked,
-    candidates: Candidates,
+    scratch: Scratch,
 }
 
 impl Probe {
@@ -33,8 +33,8 @@ impl Probe {
     /// Nearest hit in (`t_min`, ∞).
     pub fn beyond(&mut self, scene: &Scene, origin: Vec3, direction: Vec3, t_min: f32) -> Option<Hit> {
         self.aim(origin, direction, t_min, f32::INFINITY);
-        // Eight wide for the sake of the candidates; the answer is the same at every width.
-        intersect::<f32x8>(scene, &self.rays, &mut self.hits, &mut self.candidates);
+        // Eight wide for the sake of the scratch; the answer is the same at every width.
+        intersect::<f32x8>(scene, &self.rays, &mut self.hits, &mut self.scratch);
         let hit = Hit { t: self.hits.t[0], primitive: self.hits.primitive[0] };
         (hit.primitive != NONE).then_some(hit)
     }
@@ -43,7 +43,7 @@ impl Probe {
     pub fn occluded(&mut self, scene: &Scene, origin: Vec3, direction: Vec3, t_max: f32) -> bool {
         self.aim(origin, direction, 0.0, t_max);
         self.blocked = Blocked::default();
-        occluded::<f32x8>(scene, &self.rays, &mut self.blocked, &mut self.candidates);
+        occluded::<f32x8>(scene, &self.rays, &mut self.blocked, &mut self.scratch);
         self.blocked.get(0, 1) != 0
     }
 

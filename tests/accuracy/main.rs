@@ -15,7 +15,7 @@ use raypacket::geometry::{Primitives, Surface};
 use raypacket::measure::cases::Ray;
 use raypacket::measure::oracle::Shape;
 use raypacket::scene::{Description, Scene, compile_with};
-use raypacket::trace::{BATCH, Candidates, HitBatch, NONE, RayBatch, intersect};
+use raypacket::trace::{BATCH, HitBatch, NONE, RayBatch, Scratch, intersect};
 use wide::f32x8;
 
 /// The nearest hit: t, and the primitive's id.
@@ -29,7 +29,7 @@ fn compiled(description: &Description) -> Scene {
 
 /// The public query's answers.
 fn trace(scene: &Scene, rays: &[Ray]) -> Vec<Found> {
-    let (mut batch, mut scratch) = (RayBatch::default(), Candidates::default());
+    let (mut batch, mut scratch) = (RayBatch::default(), Scratch::default());
     let mut hits = HitBatch { t: [f32::NAN; BATCH], primitive: [NONE; BATCH] };
     let mut answers = Vec::with_capacity(rays.len());
     for rays in rays.chunks(BATCH) {

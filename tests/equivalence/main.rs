@@ -10,7 +10,7 @@ mod scenes;
 
 use raypacket::math::{BATCH, Lanes};
 use raypacket::scene::{Description, Scene, Structure, compile_as};
-use raypacket::trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded};
+use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use common::Pcg;
@@ -41,7 +41,7 @@ impl<'a> Case<'a> {
     }
 
     /// Both queries on the whole batch, and on every ray by itself.
-    fn check<L: Lanes>(&self, scratch: &mut Candidates) {
+    fn check<L: Lanes>(&self, scratch: &mut Scratch) {
         self.check_batch::<L>(&self.rays, &self.expected, "batch", scratch);
         for (i, answer) in self.expected.iter().enumerate() {
             let Ray { origin, direction, t_min, t_max } = Ray::of(&self.rays, i);
@@ -52,7 +52,7 @@ impl<'a> Case<'a> {
     }
 
     /// `expected` ends with the last ray; what comes after it has to be left as it was.
-    fn check_batch<L: Lanes>(&self, rays: &RayBatch, expected: &[Answer], what: &str, scratch: &mut Candidates) {
+    fn check_batch<L: Lanes>(&self, rays: &RayBatch, expected: &[Answer], what: &str, scratch: &mut Scratch) {
         let [without, with] = self.scenes;
         self.check_in::<L>(without, rays, expected, what, scratch);
         self.check_in::<L>(with, rays, expected, &format!("{what}, by the tree"), scratch);
@@ -64,7 +64,7 @@ impl<'a> Case<'a> {
         rays: &RayBatch,
         expected: &[Answer],
         what: &str,
-        scratch: &mut Candidates,
+        scratch: &mut Scratch,
     ) {
         let mut hits = HitBatch { t: [OLD_T; BATCH], primitive: [OLD_ID; BATCH] };
         intersect::<L>(scene, rays, &mut hits, scratch);
@@ -107,7 +107,7 @@ fn lengths() -> impl Iterator<Item = usize> {
 
 /// Runs the matrix on scenes of one kind.
 fn run(kind: scenes::Kind) {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let [mut active, mut hit] = [0, 0];
     for seed in 0..ROUNDS {
         let mut rng = Pcg::new(seed);
@@ -179,7 +179,7 @@ fn coincident_primitives_go_to_the_lowest_id() {
 /// What decides here is a few ε, in one batch of thousands: many small batches, each beside an outline.
 #[test]
 fn culling_beside_outlines() {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let directions = rays::Directions::OneSided;
     for (kind, seed) in [scenes::Kind::Planes, scenes::Kind::Spheres, scenes::Kind::Triangles, scenes::Kind::Bodies]
         .into_iter()
@@ -210,7 +210,7 @@ fn origins_apart_by_next_to_nothing() {
         rays.push(glam::Vec3::Y * height, glam::Vec3::NEG_Y, 0.0, f32::INFINITY);
     }
     let case = Case::new(&scenes, rays, "origins 1e-25 apart".into());
-    case.check::<f32>(&mut Candidates::default());
-    case.check::<f32x4>(&mut Candidates::default());
-    case.check::<f32x8>(&mut Candidates::default());
+    case.check::<f32>(&mut Scratch::default());
+    case.check::<f32x4>(&mut Scratch::default());
+    case.check::<f32x8>(&mut Scratch::default());
 }

@@ -78,15 +78,14 @@ struct Best<'a> {
 impl Best<'_> {
     /// Tries all primitives of a kind; of what has `boxes` only hits in there count.
     fn among<K: Primitives>(&mut self, kind: &K, first: u32, boxes: &[Aabb]) {
-        let (origin, aim) = (self.ray.origin.into(), K::aim::<f32>(self.ray.direction.into()));
         for i in 0..kind.len() {
             let within = match boxes.get(i) {
                 Some(bounds) => self.within(bounds),
                 None => Some((f32::NEG_INFINITY, f32::INFINITY)),
             };
             let Some((enter, exit)) = within else { continue };
-            let seen = K::seen(&kind.record(i), origin);
-            let hit = K::nearest::<f32, true>(&seen, &aim, self.ray.t_min, self.ray.t_max);
+            let (origin, direction) = (self.ray.origin.into(), self.ray.direction.into());
+            let hit = kind.test::<f32>(i, origin, direction, self.ray.t_min, self.ray.t_max);
             // Only a strictly nearer hit replaces one that is there, so the lowest id keeps a tie.
             let hit = hit.map(|(t, inside)| (t.max(enter).min(exit), inside));
             if let Some((t, true)) = hit.filter(|(t, _)| *t < self.t) {

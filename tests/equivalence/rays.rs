@@ -1,7 +1,7 @@
 //! The rays of the matrix: batches that are easy, hard, or partly broken.
 
 use glam::{Vec3, vec3};
-use raypacket::geometry::{Bounded, Primitives};
+use raypacket::geometry::{Cull, Primitives};
 use raypacket::math::BATCH;
 use raypacket::scene::Scene;
 use raypacket::trace::{NONE, RayBatch};
@@ -266,14 +266,16 @@ macro_rules! with_body {
 
 /// The ball around it.
 fn ball(scene: &Scene, id: u32) -> (Vec3, f32) {
-    with_body!(scene, id, |kind, i| (kind.balls().center(i), kind.balls().radius[i]))
+    with_body!(scene, id, |kind, i| match kind.cull() {
+        Cull::Balls(balls) => (balls.center(i), balls.radius[i]),
+        _ => unreachable!("bodies have balls"),
+    })
 }
 
 /// Where a ray meets it, by its own test.
 fn distance(scene: &Scene, id: u32, origin: Vec3, direction: Vec3) -> Option<f32> {
     fn nearest<K: Primitives>(kind: &K, i: usize, origin: Vec3, direction: Vec3) -> Option<f32> {
-        let seen = K::seen(&kind.record(i), origin.into());
-        K::nearest::<f32, true>(&seen, &K::aim(direction.into()), 0.0, f32::INFINITY).map(|(t, _)| t)
+        kind.test::<f32>(i, origin.into(), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
     with_body!(scene, id, |kind, i| nearest(kind, i, origin, direction))
 }

@@ -6,7 +6,7 @@ use raypacket::{
     math::Lanes,
     render::{Camera, Film, Kernel, render},
     scene::{self, Description, Scene, Structure},
-    trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded},
+    trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded},
 };
 use wide::f32x8;
 
@@ -59,7 +59,7 @@ fn rays(camera: &Camera) -> RayBatch {
 /// Distances, to the bit, and ids; a ray is blocked exactly when it has a hit.
 fn answers<L: Lanes>(scene: &Scene, rays: &RayBatch) -> Vec<(u32, u32)> {
     let (mut hits, mut blocked) = (HitBatch::default(), Blocked::default());
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     intersect::<L>(scene, rays, &mut hits, &mut scratch);
     occluded::<L>(scene, rays, &mut blocked, &mut scratch);
     let answer = |i: usize| {

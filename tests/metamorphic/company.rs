@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use raypacket::{
     math::Lanes,
     scene::{Scene, Structure, compile_as},
-    trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, intersect_stream, occluded, occluded_stream},
+    trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, intersect_stream, occluded, occluded_stream},
 };
 use wide::{f32x4, f32x8};
 
@@ -70,7 +70,7 @@ fn answers<L: Lanes>(scene: &Scene, rays: &[&Ray]) -> Vec<(u32, u32)> {
     let mut batch = RayBatch::default();
     rays.iter().for_each(|ray| ray.push(&mut batch));
     let (mut hits, mut blocked) = (HitBatch::default(), Blocked::default());
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     intersect::<L>(scene, &batch, &mut hits, &mut scratch);
     occluded::<L>(scene, &batch, &mut blocked, &mut scratch);
     let answer = |i: usize| {
@@ -96,7 +96,7 @@ fn expect_same_in_a_stream<L: Lanes>(
     batches: &[RayBatch],
     answered: usize,
 ) -> Result<(), TestCaseError> {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let (mut hits, mut blocked) = (vec![HitBatch::default(); batches.len()], vec![Blocked::default(); batches.len()]);
     let (mut streamed, mut stopped) = (hits.clone(), blocked.clone());
     for (i, batch) in batches.iter().enumerate().take(answered) {

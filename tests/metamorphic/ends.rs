@@ -9,7 +9,7 @@ use raypacket::{
     measure::verify::K,
     reference::Tracer,
     scene::{Description, Scene, Structure, compile, compile_as},
-    trace::{Blocked, Candidates, HitBatch, RayBatch, intersect, occluded},
+    trace::{Blocked, HitBatch, RayBatch, Scratch, intersect, occluded},
 };
 use wide::{f32x4, f32x8};
 
@@ -34,14 +34,14 @@ fn rays(ways: &[[Vec3; 2]]) -> RayBatch {
 
 fn blocked<L: Lanes>(scene: &Scene, ways: &[[Vec3; 2]]) -> Vec<bool> {
     let mut blocked = Blocked::default();
-    occluded::<L>(scene, &rays(ways), &mut blocked, &mut Candidates::default());
+    occluded::<L>(scene, &rays(ways), &mut blocked, &mut Scratch::default());
     (0..ways.len()).map(|i| blocked.get(i, 1) != 0).collect()
 }
 
 /// Of the ways that meet something, two more: one that ends a little before it, and one a little behind.
 fn short_and_long(scene: &Scene, ways: &[[Vec3; 2]]) -> Vec<[Vec3; 2]> {
     let mut hits = HitBatch::default();
-    intersect::<f32>(scene, &rays(ways), &mut hits, &mut Candidates::default());
+    intersect::<f32>(scene, &rays(ways), &mut hits, &mut Scratch::default());
     let ends = ways.iter().zip(hits.t).filter(|(_, t)| t.is_finite()).flat_map(|(&[from, to], t)| {
         let direction = (to - from).normalize();
         [1.0 - 1e-4, 1.0 + 1e-4].map(|part| [from, from + direction * (t * part)])

@@ -12,8 +12,7 @@ const RAYS: usize = 1000;
 
 /// Our answer for the only primitive of a kind.
 fn ours<K: Primitives>(kind: &K, origin: Vec3, direction: Vec3) -> Option<f32> {
-    let seen = K::seen(&kind.record(0), origin.into());
-    K::nearest::<f32, true>(&seen, &K::aim(direction.into()), 0.0, f32::INFINITY).map(|(t, _)| t)
+    kind.test::<f32>(0, origin.into(), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
 }
 
 fn truth(shape: &Shape, origin: Vec3, direction: Vec3) -> Option<Truth> {

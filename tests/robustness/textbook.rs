@@ -19,8 +19,7 @@ fn nearest(scene: &Scene, origin: Vec3, direction: Vec3, t_min: f32, t_max: f32)
 }
 
 fn among<K: Primitives>(kind: &K, origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> Option<f32> {
-    let aim = K::aim::<f32>(direction.into());
-    let nearest = |i| K::nearest::<f32, false>(&K::seen(&kind.record(i), origin.into()), &aim, t_min, t_max);
+    let nearest = |i| kind.test::<f32>(i, origin.into(), direction.into(), t_min, t_max);
     (0..kind.len()).filter_map(nearest).map(|(t, _)| t).min_by(f32::total_cmp)
 }
 

@@ -5,7 +5,7 @@ use raypacket::geometry::Primitives;
 use raypacket::geometry::triangle::{SeenEdges, moller_trumbore};
 use raypacket::math::{Blocked, HitBatch, NONE, RayBatch};
 use raypacket::scene::{Description, Mesh, Scene};
-use raypacket::trace::{Candidates, intersect, occluded};
+use raypacket::trace::{Scratch, intersect, occluded};
 use wide::f32x8;
 
 use crate::common::{Pcg, compiled, empty};
@@ -93,7 +93,7 @@ fn leaks(
     leaks
 }
 
-fn by_default(scene: &Scene, rays: &RayBatch, scratch: &mut Candidates, shadow: bool) -> usize {
+fn by_default(scene: &Scene, rays: &RayBatch, scratch: &mut Scratch, shadow: bool) -> usize {
     if shadow {
         let mut blocked = Blocked::default();
         occluded::<f32x8>(scene, rays, &mut blocked, scratch);
@@ -106,7 +106,7 @@ fn by_default(scene: &Scene, rays: &RayBatch, scratch: &mut Candidates, shadow: 
 
 fn stays_tight(center: Vec3, size: f32) {
     let description = rock(1, center, size);
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     for shadow in [false, true] {
         let leaks = leaks(&description, center, size, |scene, rays| by_default(scene, rays, &mut scratch, shadow));
         assert_eq!(leaks, 0, "of {RAYS} rays at {center}, shadow {shadow}");
@@ -132,7 +132,7 @@ fn the_textbook_leaks() {
             let [origin, d] =
                 [&rays.origin, &rays.direction].map(|c| Vec3::from_array([0, 1, 2].map(|axis| c[axis][*i])));
             let hit = |k| {
-                let seen = SeenEdges::new(&scene.triangles.record(k), origin.into());
+                let seen = SeenEdges::new(&scene.triangles.shape(k), origin.into());
                 moller_trumbore::<f32>(&seen, d.into(), 0.0, f32::INFINITY).is_some()
             };
             !(0..scene.triangles.len()).any(hit)

@@ -4,7 +4,7 @@ use glam::Vec3;
 use raypacket::bvh::Aabb;
 use raypacket::math::{BATCH, Lanes};
 use raypacket::scene::{Description, Scene, Structure, compile_as};
-use raypacket::trace::{Blocked, Candidates, HitBatch, NONE, RayBatch, intersect, occluded};
+use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use crate::common::empty;
@@ -17,7 +17,7 @@ pub struct Pair {
     pub boxes: Vec<Aabb>,
     /// The box around those, or a unit cube.
     pub bounds: Aabb,
-    scratch: Candidates,
+    scratch: Scratch,
 }
 
 /// What the two queries say about a batch.
@@ -30,7 +30,7 @@ struct Answers {
 const OLD: (f32, u32) = (-12345.5, 0xdead_beef);
 
 impl Answers {
-    fn new<L: Lanes>(scene: &Scene, rays: &RayBatch, scratch: &mut Candidates) -> Self {
+    fn new<L: Lanes>(scene: &Scene, rays: &RayBatch, scratch: &mut Scratch) -> Self {
         let mut hits = HitBatch { t: [OLD.0; BATCH], primitive: [OLD.1; BATCH] };
         intersect::<L>(scene, rays, &mut hits, scratch);
         let mut blocked = Blocked::default();
@@ -57,7 +57,7 @@ impl Pair {
         let boxes: Vec<_> = spheres.chain(triangles).chain(with.boxes.iter().copied()).collect();
         let bounds = boxes.iter().copied().reduce(Aabb::union);
         let bounds = bounds.unwrap_or(Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE });
-        Self { description, without, with, boxes, bounds, scratch: Candidates::default() }
+        Self { description, without, with, boxes, bounds, scratch: Scratch::default() }
     }
 
     /// The nearest hits without the tree.
@@ -113,7 +113,7 @@ impl Pair {
         let differ = |description: &Description| {
             let compiled = |s| compile_as(description, Some(s)).expect("a part of a sound scene");
             let [without, with] = [Structure::None, Structure::Tree].map(compiled);
-            let mut scratch = Candidates::default();
+            let mut scratch = Scratch::default();
             let wanted = Answers::new::<f32x8>(&without, &alone, &mut scratch).of(0);
             let found = [
                 Answers::new::<f32>(&with, &alone, &mut scratch).of(0),

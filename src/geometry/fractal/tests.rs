@@ -146,7 +146,7 @@ fn rays_that_are_no_rays_hit_nothing_and_leave_others_alone() {
 /// The cells that are void are those that the definition bores out.
 #[test]
 fn clearance_tells_void_from_solid_and_is_a_bound() {
-    let grid = Grid::new(1.0, 3);
+    let grid = Grid::<f32>::new(1.0, 3);
     let cells: Vec<V> =
         (0..27 * 27 * 27).map(|i| vec3((i % 27) as f32, (i / 27 % 27) as f32, (i / 729) as f32)).collect();
     let void = |c: V| {
@@ -155,7 +155,7 @@ fn clearance_tells_void_from_solid_and_is_a_bound() {
             [c.x, c.y, c.z].into_iter().filter(|&x| middle(x)).count() > 1
         })
     };
-    let clearance: Vec<f32> = cells.iter().map(|&c| grid.clearance::<f32>((c - 13.0).into())).collect();
+    let clearance: Vec<f32> = cells.iter().map(|&c| grid.clearance((c - 13.0).into())).collect();
     assert_eq!(clearance.iter().filter(|v| **v < 0.0).count(), 8000);
     let at = |c: V| (c.x + 27.0 * (c.y + 27.0 * c.z)) as usize;
     let mut random = Random(1);

@@ -1,6 +1,6 @@
 //! The textbook's way to a torus: the quartic multiplied out, and its roots in closed form.
 
-use super::{Nearest, SeenTorus, along};
+use super::{LaneHits, SeenTorus, along};
 use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3};
 
 /// The roots of the quartic in closed form.
@@ -21,7 +21,7 @@ use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3};
 ///
 /// All in lanes but for the root of the resolvent, which takes the lanes one after another, as cube roots and cosines do.
 #[inline(never)]
-pub fn ferrari<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
+pub fn ferrari<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let d = along(&seen.axes, direction);
     let [a3, a2, a1, a0] = quartic(seen.f, d, seen.kappa);
     let (zero, half, quarter) = (L::zero(), L::splat(0.5), L::splat(0.25));
@@ -39,7 +39,7 @@ pub fn ferrari<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_ma
         // NaN where there are none, and then they are inside nothing.
         let apart = middle.mul_add(middle, -product).sqrt();
         for y in [middle - apart, middle + apart] {
-            let root = (y - shift) * L::splat(seen.major);
+            let root = (y - shift) * seen.major;
             let nearer = root.gt(t_min) & root.lt(t);
             t = root.select(nearer, t);
             found = found | nearer;
@@ -50,10 +50,10 @@ pub fn ferrari<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_ma
 
 /// (|p|² + 1 − κ²)² − 4 ρ² along p = f + t d, from t³ down; that of t⁴ is 1.
 #[inline(always)]
-fn quartic<L: Lanes>(f: Vec3<L>, d: Vec3<L>, kappa: f32) -> [L; 4] {
+fn quartic<L: Lanes>(f: Vec3<L>, d: Vec3<L>, kappa: L) -> [L; 4] {
     let flat = |a: Vec3<L>, b: Vec3<L>| a.x.mul_add(b.x, a.y * b.y) * L::splat(4.0);
     let twice = |x: L| x + x;
-    let (k, b) = (f.dot(f) + L::splat(1.0 - kappa * kappa), twice(f.dot(d)));
+    let (k, b) = (f.dot(f) + (L::splat(1.0) - kappa * kappa), twice(f.dot(d)));
     [twice(b), b.mul_add(b, twice(k)) - flat(d, d), twice(k * b - flat(f, d)), k.mul_add(k, -flat(f, f))]
 }
 

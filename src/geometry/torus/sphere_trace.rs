@@ -1,6 +1,6 @@
 //! Sphere tracing of a torus: from a point no surface is nearer than the distance to it, so that is how far to step.
 
-use super::{Nearest, ROUNDOFF, SeenTorus, Span, along};
+use super::{LaneHits, ROUNDOFF, SeenTorus, Span, along};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// The most steps.
@@ -23,8 +23,8 @@ const NEAR: f32 = 4.0 * ROUNDOFF;
 ///
 /// t is short by up to 4 ε (R + r) / cos θ beside the rounding; directions are of unit length; NaN hits nothing.
 #[inline(never)]
-pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    let per_major = L::splat(1.0 / seen.major);
+pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let per_major = L::splat(1.0) / seen.major;
     let d = along(&seen.axes, direction);
     // s counts from the closest approach q to the centre.
     let b = seen.f.dot(d);
@@ -32,7 +32,7 @@ pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L,
     let ends = [t_min, t_max].map(|t| t.mul_add(per_major, b));
     let Span { ends: [mut s, high], live: mut active, .. } = Span::around(seen.kappa, q, d, ends)?;
     let zero = L::zero();
-    let near = L::splat(NEAR * (1.0 + seen.kappa));
+    let near = L::splat(NEAR) * (L::splat(1.0) + seen.kappa);
     let nowhere = zero.lt(zero);
     let (mut outside, mut inside, mut found) = (nowhere, nowhere, nowhere);
     for _ in 0..MOST_STEPS {
@@ -49,14 +49,14 @@ pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L,
             break;
         }
     }
-    let t = (s - b) * L::splat(seen.major);
+    let t = (s - b) * seen.major;
     let found = found & t.gt(t_min) & t.lt(t_max);
     found.any().then_some((t, found))
 }
 
 /// From the torus with R = 1; below zero inside.
 #[inline(always)]
-fn distance<L: Lanes>(p: Vec3<L>, kappa: f32) -> L {
+fn distance<L: Lanes>(p: Vec3<L>, kappa: L) -> L {
     let aside = p.x.mul_add(p.x, p.y * p.y).sqrt() - L::splat(1.0);
-    aside.mul_add(aside, p.z * p.z).sqrt() - L::splat(kappa)
+    aside.mul_add(aside, p.z * p.z).sqrt() - kappa
 }

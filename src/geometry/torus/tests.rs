@@ -35,7 +35,7 @@ impl Rng {
 }
 
 /// One of the methods.
-type Method<L> = fn(&SeenTorus<L>, Vec3<L>, L, L) -> Nearest<L>;
+type Method<L> = fn(&SeenTorus<L>, Vec3<L>, L, L) -> LaneHits<L>;
 
 /// One torus, as traced and as described.
 struct Case {
@@ -58,7 +58,7 @@ impl Case {
     }
 
     fn by(&self, method: Method<f32>, ray: (V, V), t_min: f32, t_max: f32) -> Option<f32> {
-        method(&Tori::seen(&self.tori.record(0), ray.0.into()), ray.1.into(), t_min, t_max).map(|(t, _)| t)
+        method(&Tori::seen(&self.tori.shape(0), (), ray.0.into()), ray.1.into(), t_min, t_max).map(|(t, _)| t)
     }
 
     fn between(&self, ray: (V, V), t_min: f32, t_max: f32) -> Option<f32> {
@@ -260,7 +260,7 @@ fn bits<L: Lanes>(method: Method<L>, case: &Case, rays: &[(V, V)]) -> Vec<Option
         let vector = |pick: &dyn Fn(&(V, V)) -> V| {
             Vec3::new(column(&|ray| pick(ray).x), column(&|ray| pick(ray).y), column(&|ray| pick(ray).z))
         };
-        let seen = Tori::seen(&case.tori.record(0), vector(&|ray| ray.0));
+        let seen = Tori::seen(&Tori::splat(&case.tori.shape(0)), (), vector(&|ray| ray.0));
         let mut lanes = vec![0.0; L::WIDTH];
         let hit = method(&seen, vector(&|ray| ray.1), L::zero(), L::splat(f32::INFINITY));
         let found = hit.map_or(0, |(t, found)| {
@@ -437,7 +437,7 @@ fn bounds_hold_the_surface_and_touch_it() {
         }
         let loose = (reached[0] - min).max(max - reached[1]).max_element();
         assert!(loose < 0.1 * (max - min).max_element(), "{:?}: {loose}", case.it);
-        let ball = case.tori.balls();
+        let ball = &case.tori.balls;
         assert!(f64::from(ball.radius[0]) >= case.radii().iter().sum());
     }
 }

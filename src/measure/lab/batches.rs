@@ -4,7 +4,7 @@ use crate::math::{BATCH, Blocked, HitBatch, Lanes, NONE, RayBatch};
 use crate::measure::cases::Ray;
 use crate::render::{Kernel, with_lanes};
 use crate::scene::Scene;
-use crate::trace::{Candidates, Hit, intersect, occluded};
+use crate::trace::{Hit, Scratch, intersect, occluded};
 
 /// All rays, [`BATCH`] at a time.
 pub fn of(rays: &[Ray]) -> Vec<RayBatch> {
@@ -17,11 +17,11 @@ pub fn of(rays: &[Ray]) -> Vec<RayBatch> {
 }
 
 /// Answers all batches at a kernel's width, on this thread.
-pub fn nearest(scene: &Scene, kernel: Kernel, batches: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Candidates) {
+pub fn nearest(scene: &Scene, kernel: Kernel, batches: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Scratch) {
     with_lanes!(kernel, nearest_of(scene, batches, hits, scratch));
 }
 
-fn nearest_of<L: Lanes>(scene: &Scene, batches: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Candidates) {
+fn nearest_of<L: Lanes>(scene: &Scene, batches: &[RayBatch], hits: &mut [HitBatch], scratch: &mut Scratch) {
     batches.iter().zip(hits).for_each(|(rays, hits)| intersect::<L>(scene, rays, hits, scratch));
 }
 
@@ -29,7 +29,7 @@ fn nearest_of<L: Lanes>(scene: &Scene, batches: &[RayBatch], hits: &mut [HitBatc
 pub fn trace(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
     let batches = of(rays);
     let mut hits = vec![HitBatch::default(); batches.len()];
-    nearest(scene, Kernel::default(), &batches, &mut hits, &mut Candidates::default());
+    nearest(scene, Kernel::default(), &batches, &mut hits, &mut Scratch::default());
     (0..rays.len())
         .map(|i| {
             let (t, primitive) = (hits[i / BATCH].t[i % BATCH], hits[i / BATCH].primitive[i % BATCH]);
@@ -40,7 +40,7 @@ pub fn trace(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
 
 /// How many of the rays are blocked.
 pub fn blocked(scene: &Scene, rays: &[Ray]) -> Vec<bool> {
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let answer = |rays: RayBatch| {
         let mut blocked = Blocked::default();
         with_lanes!(Kernel::default(), occluded(scene, &rays, &mut blocked, &mut scratch));

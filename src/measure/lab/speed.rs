@@ -15,7 +15,7 @@ use crate::measure::oracle::{Shape, shapes};
 use crate::measure::random::Pcg;
 use crate::render::Kernel;
 use crate::scene::{Description, Invalid, Scene, Structure, compile_with};
-use crate::trace::Candidates;
+use crate::trace::Scratch;
 
 /// Batches that are timed, at the most: they stay in the second-level cache, as the rays of a tile do.
 const TIMED: usize = 96;
@@ -166,7 +166,7 @@ fn take_turns(scenes: &[Scene], batches: &[RayBatch], turns: usize) -> (Vec<Vec<
     let rays: usize = batches.iter().map(|b| b.len).sum::<usize>().max(1);
     let contestants: Vec<(&Scene, Kernel)> =
         scenes.iter().flat_map(|s| Kernel::ALL.map(|kernel| (s, kernel))).collect();
-    let mut scratch = Candidates::default();
+    let mut scratch = Scratch::default();
     let mut run = |&(scene, kernel): &(&Scene, Kernel), hits: &mut [HitBatch], passes: usize| {
         let started = Instant::now();
         for _ in 0..passes {

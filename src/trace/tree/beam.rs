@@ -12,17 +12,15 @@
 //! (2013), adds it to the exit; here every face is moved, as the primitives' own error goes across the ray as well). So all
 //! boxes are wider by [`PAD`] (D + |o|) on all sides. No hit is found before the ray enters that box: the spheres'
 //! test errs as if the sphere were larger by 12 ε |f|, and all others keep their hits within boxes of their own, wider
-//! by 32 ε D ([`crate::geometry::triangle::Flat`], [`super::super::boxes`]). The spheres' error is 21 ε D at most, as
+//! by 32 ε D ([`crate::geometry::triangle::Flat`], [`crate::trace::packet`]). The spheres' error is 21 ε D at most, as
 //! |f| ≤ √3 D; their boxes, rounded to nearest, add ε (D + |o|), a direction that is 84 ε too long or short, as a ray
 //! file's may be, less than 30 ε of a radius: less than 64 in all.
 
 use crate::bvh::Bvh;
-use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
+use crate::trace::bounds::Extent;
 use std::ops::Range;
 use wide::f32x8;
-
-use super::super::bounds::Extent;
-use super::State;
 
 /// 64 ε.
 pub const PAD: f32 = 1.0 / (1 << 18) as f32;
@@ -47,13 +45,14 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// The least and greatest origins and directions of the rays of a range that are not done, if there are any.
+    /// The least and greatest origins and directions of the rays of a range that are not done, if there are any; `t` as
+    /// the state has it.
     #[inline(always)]
-    pub fn ends(rays: &RayBatch, state: &State, range: Range<usize>) -> Option<[[glam::Vec3; 2]; 2]> {
+    pub fn ends(rays: &RayBatch, t: &[f32; BATCH], range: Range<usize>) -> Option<[[glam::Vec3; 2]; 2]> {
         let (mut origins, mut directions) = (Extent::<f32x8>::empty(), Extent::<f32x8>::empty());
         let mut any = false;
         for at in range.step_by(8) {
-            let active = Lanes::ge(f32x8::load(&state.t[at..]), f32x8::zero());
+            let active = Lanes::ge(f32x8::load(&t[at..]), f32x8::zero());
             if !LaneMask::any(active) {
                 continue;
             }
@@ -109,6 +108,7 @@ impl Beam {
     /// [`Beam::mixed`] is.
     #[inline(always)]
     pub fn meets<const MIXED: bool>(&self, faces: impl Fn(usize, usize) -> [f32x8; 2], end: f32x8) -> (f32x8, u32) {
+        debug_assert!(MIXED || !self.mixed);
         let mut enter = f32x8::ZERO;
         let mut exit = end;
         for axis in 0..3 {

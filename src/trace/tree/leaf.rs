@@ -1,251 +1,275 @@
-//! The primitives of a block against the packets of a group.
+//! The primitives of a block against a group, a packet or a ray: one text for all kinds, but for what triangles have of
+//! their own.
 
-use crate::bvh::{BLOCK, SphereBlock, TriangleBlock};
-use crate::geometry::methods::{SphereMethod, TriangleMethod};
-use crate::geometry::sphere::{self, SeenSphere};
-use crate::geometry::triangle::{Aim, Flat, covers, covers_ordered, there};
-use crate::geometry::{Nearest, Primitives, Sides, SphereRecord, Spheres};
-use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
-use crate::scene::with_primitive;
-use std::ops::Range;
-use wide::f32x8;
-
-use super::super::boxes::Boxes;
-use super::super::packets::Packet;
-use super::Walk;
 use super::beam::Beam;
+use super::walk::Walk;
+use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
+use crate::geometry::triangle::Aim;
+use crate::geometry::*;
+use crate::kinds::for_each_kind;
+use crate::math::{LaneMask, Lanes, NONE, Vec3};
+use crate::trace::packet::{Packet, hits};
+use crate::trace::query::Query;
+use std::marker::PhantomData;
+use std::ops::Range;
+use wide::{f32x8, f32x16};
 
-impl Walk<'_> {
-    /// The triangles of a block whose boxes the beam meets, one by one; whether any hit was taken.
+/// Rays on their way that meet a block.
+pub trait Visitor {
+    /// Tests primitives of a block of a kind; whether any hit was taken.
+    fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool;
+}
+
+/// A group in packets of `L::WIDTH`, behind a beam.
+pub struct Group<'a, L, const MIXED: bool> {
+    /// Around the rays.
+    pub beam: &'a Beam,
+    /// The furthest that any of them looks.
+    pub limit: f32,
+    /// Which they are.
+    pub range: Range<usize>,
+    /// How wide they are tested.
+    pub lanes: PhantomData<L>,
+}
+
+/// Sixteen rays, each with its own interval.
+pub struct Sixteen {
+    /// The first.
+    pub at: usize,
+}
+
+/// One ray, in every lane.
+pub struct Alone {
+    /// Which.
+    pub i: usize,
+    /// The ray.
+    pub packet: Packet<f32x8>,
+    /// The axis of its direction's largest component.
+    pub major: usize,
+    /// What its direction is sheared by for triangles.
+    pub shear: [f32x8; 2],
+}
+
+impl Alone {
+    /// Ray `i`.
     #[inline(always)]
-    pub fn triangles<L: Lanes, const ANY: bool, const RARE: bool, const MIXED: bool>(
-        &mut self,
-        block: &TriangleBlock,
-        beam: &Beam,
-        limit: f32,
-        range: Range<usize>,
-    ) -> bool {
-        if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
-            return self.triangles_one_by_one::<L, ANY>(block, range);
+    pub fn new(walk: &Walk, i: usize) -> Self {
+        let [p, q] = walk.state.shear::<f32>(i);
+        Self {
+            i,
+            packet: Packet::splat(walk.rays, i),
+            major: Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, i)),
+            shear: [f32x8::splat(p), f32x8::splat(q)],
         }
-        let faces = |axis: usize, near: usize| {
-            let [a, b, c] = three([0, 1, 2], |k| f32x8::from(block.corners[k][axis]));
-            near_first(near, Lanes::min(a, Lanes::min(b, c)), Lanes::max(a, Lanes::max(b, c)))
-        };
-        let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
-        let mut taken = false;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize & 7;
-            met &= met - 1;
-            let id = block.id[lane];
-            if id == NONE {
-                break;
-            }
-            let corners = block.triangle(lane);
-            self.ahead.step(super::group::LINES);
-            for at in range.clone().step_by(L::WIDTH) {
-                let origin = self.rays.origins::<L>(at);
-                let inside = match beam.major {
-                    Some(major) => {
-                        let origin = origin.ordered(major);
-                        let axis =
-                            |k: usize, i: usize| L::splat(block.corners[k][(major + 1 + i) % 3][lane]) - origin[i];
-                        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
-                        covers_ordered(&seen, self.state.shear(at))
-                    }
-                    None => {
-                        let aim = Aim::new(Vec3::load(&self.rays.direction, at));
-                        covers(&three(corners, |c| Vec3::splat(c) - origin), &aim)
-                    }
-                };
-                let Some(inside) = inside else { continue };
-                let flat = Flat::of(three(corners, Vec3::from), origin);
-                taken |= self.triangle::<L, ANY, RARE>(at, &flat, inside, id);
-            }
-        }
-        taken
-    }
-
-    /// The triangles of a block by another method than the default.
-    #[inline(never)]
-    pub fn triangles_one_by_one<L: Lanes, const ANY: bool>(
-        &mut self,
-        block: &TriangleBlock,
-        range: Range<usize>,
-    ) -> bool {
-        self.one_by_one::<_, L, ANY>(&self.scene.triangles, self.scene.first.triangles, &block.id, range)
-    }
-
-    /// The spheres of a block where they differ in their sides, or have another method than the default.
-    #[inline(never)]
-    pub fn spheres_one_by_one<L: Lanes, const ANY: bool>(&mut self, block: &SphereBlock, range: Range<usize>) -> bool {
-        self.one_by_one::<_, L, ANY>(&self.scene.spheres, self.scene.first.spheres, &block.id, range)
-    }
-
-    #[inline(always)]
-    fn one_by_one<K: Primitives, L: Lanes, const ANY: bool>(
-        &mut self,
-        kind: &K,
-        first: u32,
-        ids: &[u32; BLOCK],
-        range: Range<usize>,
-    ) -> bool {
-        let mut taken = false;
-        for &id in ids.iter().take_while(|&&id| id != NONE) {
-            let record = kind.record((id - first) as usize);
-            taken |= self.packets::<K, L, ANY>(&record, range.clone(), id, K::nearest::<L, true>);
-        }
-        taken
-    }
-
-    /// Takes the hits of a triangle that packet `at` passes through where `inside` is true.
-    #[inline(always)]
-    pub fn triangle<L: Lanes, const ANY: bool, const RARE: bool>(
-        &mut self,
-        at: usize,
-        flat: &Flat<L>,
-        inside: L::Mask,
-        id: u32,
-    ) -> bool {
-        let direction = Vec3::load(&self.rays.direction, at);
-        let (t, mut inside) = flat.distance(direction, inside);
-        if RARE && self.scene.triangles.one_sided {
-            inside = inside
-                & there(self.scene.triangles.sides[(id - self.scene.first.triangles) as usize], flat.n.dot(direction));
-        }
-        let inside = inside & t.gt(L::load(&self.rays.t_min[at..]));
-        inside.any() && self.state.take::<L, ANY>(at, t, inside, id)
-    }
-
-    /// The same for spheres.
-    #[inline(always)]
-    pub fn spheres<L: Lanes, const ANY: bool, const RARE: bool, const MIXED: bool>(
-        &mut self,
-        block: &SphereBlock,
-        beam: &Beam,
-        limit: f32,
-        range: Range<usize>,
-    ) -> bool {
-        let Some(side) = self.sphere_side::<RARE>() else {
-            return self.spheres_one_by_one::<L, ANY>(block, range);
-        };
-        let radius = f32x8::from(block.radius);
-        let faces = |axis: usize, near: usize| {
-            let center = f32x8::from(block.center[axis]);
-            near_first(near, center - radius, center + radius)
-        };
-        let (_, mut met) = beam.meets::<MIXED>(faces, f32x8::splat(limit));
-        let mut taken = false;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize & 7;
-            met &= met - 1;
-            let id = block.id[lane];
-            if id == NONE {
-                break;
-            }
-            taken |= self.sphere::<L, ANY, RARE>(&sphere_of(block, lane, side), range.clone(), id);
-        }
-        taken
-    }
-
-    /// The side of all spheres that is there; `None` where they differ, or have another method than the default.
-    #[inline(always)]
-    pub fn sphere_side<const RARE: bool>(&self) -> Option<Sides> {
-        if RARE { self.scene.spheres.common_side() } else { Some(Sides::Both) }
-    }
-
-    /// A sphere against the packets of a range, by the default method.
-    #[inline(always)]
-    pub fn sphere<L: Lanes, const ANY: bool, const RARE: bool>(
-        &mut self,
-        record: &SphereRecord,
-        range: Range<usize>,
-        id: u32,
-    ) -> bool {
-        self.packets::<Spheres, L, ANY>(record, range, id, |seen, &d, t_min, t_max| {
-            default_sphere::<L, RARE>(seen, d, t_min, t_max)
-        })
-    }
-
-    /// Primitive `id` against the packets of a range.
-    #[inline(always)]
-    fn packets<K: Primitives, L: Lanes, const ANY: bool>(
-        &mut self,
-        record: &K::Record,
-        range: Range<usize>,
-        id: u32,
-        test: impl Fn(&K::Seen<L>, &K::Aim<L>, L, L) -> Nearest<L>,
-    ) -> bool {
-        let mut taken = false;
-        for at in range.step_by(L::WIDTH) {
-            let seen = K::seen::<L>(record, self.rays.origins(at));
-            let aim = K::aim(Vec3::load(&self.rays.direction, at));
-            let t_min = L::load(&self.rays.t_min[at..]);
-            // As far as the ray goes: what was found may be as near with a higher id.
-            if let Some((t, inside)) = test(&seen, &aim, t_min, L::splat(f32::INFINITY)) {
-                taken |= self.state.take::<L, ANY>(at, t, inside, id);
-            }
-        }
-        taken
-    }
-
-    /// All other kinds.
-    #[inline(never)]
-    pub fn others<L: Lanes, const ANY: bool>(&mut self, block: usize, range: Range<usize>) -> bool {
-        let mut taken = false;
-        // No child counts as one without a block; a beam with infinite numbers may meet it.
-        let Some(block) = self.bvh.others.get(block) else { return false };
-        for id in block.id.into_iter().take_while(|&id| id != NONE) {
-            taken |= with_primitive!(self.scene, id, |kind, i| self.other::<_, L, ANY>(kind, i, range.clone(), id));
-        }
-        taken
-    }
-
-    #[inline(always)]
-    fn other<K: Primitives, L: Lanes, const ANY: bool>(
-        &mut self,
-        kind: &K,
-        i: usize,
-        range: Range<usize>,
-        id: u32,
-    ) -> bool {
-        let record = kind.record(i);
-        let mut taken = false;
-        for at in range.step_by(L::WIDTH) {
-            let packet = Packet {
-                origin: self.rays.origins(at),
-                direction: Vec3::load(&self.rays.direction, at),
-                t_min: L::load(&self.rays.t_min[at..]),
-                t_max: L::load(&self.rays.t_max[at..]),
-            };
-            let t_max = packet.t_max;
-            let Some(within) = Boxes::new(self.scene, &packet).meet(id, packet.t_min, t_max) else { continue };
-            let seen = K::seen::<L>(&record, packet.origin);
-            let aim = K::aim(packet.direction);
-            if let Some((t, inside)) = K::nearest::<L, true>(&seen, &aim, packet.t_min, t_max) {
-                let (t, inside) = within.keep(t, inside);
-                taken |= self.state.take::<L, ANY>(at, t, inside, id);
-            }
-        }
-        taken
     }
 }
 
-/// A sphere of a block by the default's method.
+/// A kind as the tree tests it.
+pub trait Leaf: Bounded {
+    /// A block against a group.
+    #[inline(always)]
+    fn group<Q: Query, L: Lanes, const MIXED: bool>(
+        walk: &mut Walk,
+        block: &Block<Self>,
+        variant: Self::Variant,
+        group: &Group<L, MIXED>,
+    ) -> bool {
+        let met = met(block, group);
+        met != 0 && packets::<Q, Self, _, L>(walk, Standard, block, variant, met, group.range.clone())
+    }
+
+    /// A block against sixteen rays.
+    #[inline(always)]
+    fn sixteen<Q: Query>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, rays: &Sixteen) -> bool {
+        packets::<Q, Self, _, f32x16>(walk, Standard, block, variant, used(block), rays.at..rays.at + f32x16::WIDTH)
+    }
+
+    /// A block against one ray.
+    #[inline(always)]
+    fn alone<Q: Query>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, ray: &Alone) -> bool {
+        eight::<Q, Self, _>(walk, Standard, block, variant, ray)
+    }
+}
+
+impl<L: Lanes, const MIXED: bool> Visitor for Group<'_, L, MIXED> {
+    #[inline(always)]
+    fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
+        match kind.named() {
+            None => K::group::<Q, L, MIXED>(walk, block, variant, self),
+            Some(test) => packets_named::<Q, K, L>(walk, test, block, variant, met(block, self), self.range.clone()),
+        }
+    }
+}
+
+impl Visitor for Sixteen {
+    #[inline(always)]
+    fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
+        let range = self.at..self.at + f32x16::WIDTH;
+        match kind.named() {
+            None => K::sixteen::<Q>(walk, block, variant, self),
+            Some(test) => packets_named::<Q, K, f32x16>(walk, test, block, variant, used(block), range),
+        }
+    }
+}
+
+impl Visitor for Alone {
+    #[inline(always)]
+    fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
+        match kind.named() {
+            None => K::alone::<Q>(walk, block, variant, self),
+            Some(test) => eight_named::<Q, K>(walk, test, block, variant, self),
+        }
+    }
+}
+
+/// The lanes with a primitive.
 #[inline(always)]
-pub fn sphere_of(block: &SphereBlock, lane: usize, sides: Sides) -> SphereRecord {
-    let center = Vec3 { x: block.center[0][lane], y: block.center[1][lane], z: block.center[2][lane] };
-    SphereRecord { center, radius: block.radius[lane], sides, method: SphereMethod::Stable }
+fn used<K: Primitives>(block: &Block<K>) -> u32 {
+    !LaneMask::bits(f32x8::id_mask(&block.id, NONE)) & 0xff
 }
 
-/// The default's test, of a sphere of any side where `RARE`.
+/// The lanes whose boxes a group's beam meets.
 #[inline(always)]
-pub fn default_sphere<L: Lanes, const RARE: bool>(seen: &SeenSphere<L>, d: Vec3<L>, t_min: L, t_max: L) -> Nearest<L> {
-    if RARE { sphere::one_sided(seen, d, t_min, t_max) } else { sphere::stable(seen, d, t_min, t_max) }
+pub fn met<K: Bounded, L, const MIXED: bool>(block: &Block<K>, group: &Group<L, MIXED>) -> u32 {
+    let [low, high] = K::extent(&columns(block));
+    let faces = |axis: usize, near: usize| {
+        let (low, high) = match axis {
+            0 => (low.x, high.x),
+            1 => (low.y, high.y),
+            _ => (low.z, high.z),
+        };
+        if near == 0 { [low, high] } else { [high, low] }
+    };
+    let (_, met) = group.beam.meets::<MIXED>(faces, f32x8::splat(group.limit));
+    met & used(block)
 }
 
-/// The near end first.
+/// All primitives of a block, one a lane.
 #[inline(always)]
-fn near_first(near: usize, least: f32x8, most: f32x8) -> [f32x8; 2] {
-    if near == 0 { [least, most] } else { [most, least] }
+pub fn columns<K: Primitives>(block: &Block<K>) -> K::Shape<f32x8> {
+    K::map(&block.shape, |column: [f32; BLOCK]| f32x8::from(column))
 }
+
+/// Packets against the primitives of some lanes.
+#[inline(always)]
+fn packets<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
+    walk: &mut Walk,
+    test: T,
+    block: &Block<K>,
+    variant: K::Variant,
+    lanes: u32,
+    range: Range<usize>,
+) -> bool {
+    let mut taken = false;
+    for at in range.step_by(L::WIDTH) {
+        let packet = Packet::<L>::of(walk.rays, at);
+        let mut left = lanes;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & (BLOCK - 1);
+            left &= left - 1;
+            let shape = K::splat(&block.primitive(lane));
+            if let Some((t, inside)) = hits::<K, T, L>(test, &shape, variant, &packet, packet.t_max) {
+                taken |= walk.state.take::<Q, L>(at, t, inside, block.id[lane]);
+            }
+        }
+    }
+    taken
+}
+
+/// The same by a method that was asked for.
+#[inline(never)]
+fn packets_named<Q: Query, K: Bounded, L: Lanes>(
+    walk: &mut Walk,
+    test: K::Named,
+    block: &Block<K>,
+    variant: K::Variant,
+    lanes: u32,
+    range: Range<usize>,
+) -> bool {
+    packets::<Q, K, _, L>(walk, test, block, variant, lanes, range)
+}
+
+/// One ray against all primitives.
+#[inline(always)]
+fn eight<Q: Query, K: Bounded, T: Test<K>>(
+    walk: &mut Walk,
+    test: T,
+    block: &Block<K>,
+    variant: K::Variant,
+    ray: &Alone,
+) -> bool {
+    let found = hits::<K, T, f32x8>(test, &columns(block), variant, &ray.packet, ray.packet.t_max);
+    found.is_some_and(|(t, inside)| take_eight::<Q>(walk, ray.i, t, inside, &block.id))
+}
+
+/// The same by a method that was asked for.
+#[inline(never)]
+fn eight_named<Q: Query, K: Bounded>(
+    walk: &mut Walk,
+    test: K::Named,
+    block: &Block<K>,
+    variant: K::Variant,
+    ray: &Alone,
+) -> bool {
+    eight::<Q, K, _>(walk, test, block, variant, ray)
+}
+
+/// Takes ray `i`'s hits of a block, where `inside` is true.
+#[inline(always)]
+pub fn take_eight<Q: Query>(walk: &mut Walk, i: usize, t: f32x8, inside: f32x8, ids: &[u32; BLOCK]) -> bool {
+    let t = t.to_array();
+    let mut bits = LaneMask::bits(inside);
+    let mut taken = false;
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize & (BLOCK - 1);
+        bits &= bits - 1;
+        // Unused lanes repeat the first.
+        if ids[lane] != NONE {
+            taken |= walk.state.take::<Q, f32>(i, t[lane], true, ids[lane]);
+        }
+    }
+    taken
+}
+
+macro_rules! leaves {
+    (unbounded { $($unbounded:tt)* } bounded { $(($field:ident: $Storage:ident, $($rest:tt)*))* }) => {
+        $(leaf!($field $Storage);)*
+
+        /// Shows the block that a child is to a visitor; whether any hit was taken.
+        #[inline(always)]
+        pub fn block<Q: Query, V: Visitor>(walk: &mut Walk, child: Child, visitor: &V) -> bool {
+            let (scene, blocks, i) = (walk.scene, &walk.bvh.blocks, child.index());
+            match child.kind() {
+                $(Kind::$Storage => visit!($field Q, V, walk, &scene.$field, &blocks.$field, i, visitor),)*
+                Kind::Node | Kind::Nothing => false,
+            }
+        }
+    };
+}
+
+/// Triangles are tested in a way of their own ([`super::triangles`]).
+macro_rules! leaf {
+    (triangles $Storage:ident) => {};
+    ($field:ident $Storage:ident) => {
+        impl Leaf for $Storage {}
+    };
+}
+
+/// The kinds that most scenes have are compiled in place.
+macro_rules! visit {
+    (spheres $($rest:tt)*) => { visit!(@here $($rest)*) };
+    (triangles $($rest:tt)*) => { visit!(@here $($rest)*) };
+    (@here $Q:ident, $V:ident, $walk:expr, $kind:expr, $list:expr, $i:expr, $visitor:expr) => {
+        $visitor.visit::<$Q, _>($walk, $kind, &$list.blocks[$i], $list.variant($i))
+    };
+    ($field:ident $Q:ident, $V:ident, $walk:expr, $kind:expr, $list:expr, $i:expr, $visitor:expr) => {
+        apart::<$Q, _, $V>($walk, $kind, $list, $i, $visitor)
+    };
+}
+
+#[inline(never)]
+fn apart<Q: Query, K: Leaf, V: Visitor>(walk: &mut Walk, kind: &K, list: &BlockList<K>, i: usize, visitor: &V) -> bool {
+    visitor.visit::<Q, K>(walk, kind, &list.blocks[i], list.variant(i))
+}
+
+for_each_kind!(leaves);

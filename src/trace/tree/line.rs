@@ -5,7 +5,6 @@ use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
 use std::ops::Range;
 use wide::{f32x8, f32x16};
 
-use super::State;
 use super::beam::{PAD, TINY};
 
 /// What the boxes are met with, a column a number, made for many rays at once.
@@ -66,8 +65,8 @@ pub struct Line {
 impl Line {
     /// Ray `i`, which is prepared.
     #[inline(always)]
-    pub fn new(state: &State, direction: Vec3<f32>, i: usize) -> Self {
-        let Lines { inverse, near, far } = &state.lines;
+    pub fn new(lines: &Lines, direction: Vec3<f32>, i: usize) -> Self {
+        let Lines { inverse, near, far } = lines;
         let splat = |columns: &[[f32; BATCH]; 3]| {
             [f32x8::splat(columns[0][i]), f32x8::splat(columns[1][i]), f32x8::splat(columns[2][i])]
         };

@@ -3,67 +3,24 @@
 //! Ernst, Mark, *Combining Single and Packet-Ray Tracing for Arbitrary Ray Distributions on the Intel MIC Architecture*,
 //! 2012, §3.)
 
-use crate::bvh::{Child, Kind, MOST_DEPTH, Node};
-use crate::geometry::methods::TriangleMethod;
-use crate::geometry::triangle::{Aim, Flat, covers};
-use crate::math::{BATCH, LaneMask, Lanes, NONE, Vec3, three};
+use super::leaf::{Sixteen, block};
+use super::line::Lines;
+use super::stack::Part;
+use super::walk::Walk;
+use crate::bvh::{Child, Kind, Node};
+use crate::math::{BATCH, LaneMask, Lanes, three};
+use crate::trace::query::Query;
 use wide::f32x16;
 
-use super::Walk;
-use super::leaf::sphere_of;
-use super::line::Lines;
-
 /// Rays of a packet.
-pub const RAYS: usize = 16;
+pub const PACKET: usize = 16;
 /// Cache lines of the next batch that are fetched at every step of the descent.
 const LINES: usize = 2;
 /// As many go on one by one.
 const FEW: u32 = 5;
 
-/// A child, the distance from which on some ray may hit it, and those that may.
-#[derive(Clone, Copy, Debug)]
-struct Part {
-    enter: f32,
-    child: Child,
-    lanes: u32,
-}
-
-/// What is left, the nearest of every node's on top.
-#[derive(Clone, Debug)]
-pub struct Parts {
-    parts: [Part; 7 * MOST_DEPTH + 8],
-    len: usize,
-}
-
-impl Default for Parts {
-    fn default() -> Self {
-        Self { parts: [Part { enter: 0.0, child: Child::EMPTY, lanes: 0 }; 7 * MOST_DEPTH + 8], len: 0 }
-    }
-}
-
-impl Parts {
-    /// The next one.
-    #[inline(always)]
-    fn pop(&mut self) -> Option<Part> {
-        self.len = self.len.checked_sub(1)?;
-        Some(self.parts[self.len])
-    }
-
-    /// Adds a part where it belongs above `base`.
-    #[inline(always)]
-    fn sort_in(&mut self, base: usize, part: Part) {
-        let mut at = self.len;
-        while at > base && self.parts[at - 1].enter < part.enter {
-            self.parts[at] = self.parts[at - 1];
-            at -= 1;
-        }
-        self.parts[at] = part;
-        self.len += 1;
-    }
-}
-
 /// A ray in every lane: [`super::line::Line`] turned about.
-struct Packet {
+struct Lines16 {
     inverse: [f32x16; 3],
     near: [f32x16; 3],
     far: [f32x16; 3],
@@ -73,7 +30,7 @@ struct Packet {
     mixed: bool,
 }
 
-impl Packet {
+impl Lines16 {
     #[inline(always)]
     fn new(lines: &Lines, at: usize, active: u32) -> Self {
         let load = |columns: &[[f32; BATCH]; 3]| three([0, 1, 2], |axis| f32x16::load(&columns[axis][at..]));
@@ -115,11 +72,11 @@ impl Packet {
 impl Walk<'_> {
     /// Traces rays `at` to `at + 16`, whose [`Lines`] are known.
     #[inline(always)]
-    pub fn packet<const ANY: bool, const RARE: bool>(&mut self, at: usize) {
-        let packet = Packet::new(&self.state.lines, at, self.looking(at, 0.0));
+    pub fn packet<Q: Query>(&mut self, at: usize) {
+        let packet = Lines16::new(&self.state.lines, at, self.looking(at, 0.0));
         match packet.mixed {
-            true => self.descend_packet::<ANY, RARE, true>(&packet, at),
-            false => self.descend_packet::<ANY, RARE, false>(&packet, at),
+            true => self.descend_packet::<Q, true>(&packet, at),
+            false => self.descend_packet::<Q, false>(&packet, at),
         }
     }
 
@@ -130,18 +87,19 @@ impl Walk<'_> {
     }
 
     #[inline(never)]
-    fn descend_packet<const ANY: bool, const RARE: bool, const MIXED: bool>(&mut self, packet: &Packet, at: usize) {
-        self.state.parts.len = 0;
+    fn descend_packet<Q: Query, const MIXED: bool>(&mut self, packet: &Lines16, at: usize) {
+        self.state.parts.clear();
         let mut part = Part { enter: 0.0, child: self.bvh.root, lanes: self.looking(at, 0.0) };
         loop {
             self.ahead.step(LINES);
             let few = part.lanes.count_ones() <= FEW;
             match part.child.kind() {
-                Kind::Node if few => each(part.lanes, |lane| self.single::<ANY, RARE>(at + lane, part.child)),
+                Kind::Node if few => each(part.lanes, |lane| self.single::<Q>(at + lane, part.child)),
                 Kind::Node => self.children::<MIXED>(packet, at, &part),
-                Kind::Triangles if !few => self.sixteen_triangles::<ANY, RARE>(at, part.child.index()),
-                Kind::Spheres if !few => self.sixteen_spheres::<ANY, RARE>(at, part.child.index()),
-                _ => each(part.lanes, |lane| self.block_alone::<ANY, RARE>(at + lane, part.child)),
+                _ if few => each(part.lanes, |lane| self.block_alone::<Q>(at + lane, part.child)),
+                _ => {
+                    block::<Q, _>(self, part.child, &Sixteen { at });
+                }
             }
             loop {
                 let Some(next) = self.state.parts.pop() else { return };
@@ -155,9 +113,9 @@ impl Walk<'_> {
 
     /// Puts aside the children of a node that any of a part's rays meets.
     #[inline(always)]
-    fn children<const MIXED: bool>(&mut self, packet: &Packet, at: usize, part: &Part) {
+    fn children<const MIXED: bool>(&mut self, packet: &Lines16, at: usize, part: &Part) {
         let node = &self.bvh.nodes[part.child.index()];
-        let base = self.state.parts.len;
+        let base = self.state.parts.len();
         let end = f32x16::load(&self.state.t[at..]);
         for lane in 0..8 {
             let child = node.child[lane];
@@ -172,38 +130,6 @@ impl Walk<'_> {
                 let enter = Lanes::select(enter, LaneMask::from_bits(lanes), far).least();
                 self.state.parts.sort_in(base, Part { enter, child, lanes });
             }
-        }
-    }
-
-    /// The triangles of a block against all rays.
-    #[inline(always)]
-    fn sixteen_triangles<const ANY: bool, const RARE: bool>(&mut self, at: usize, block: usize) {
-        let block = &self.bvh.triangles[block];
-        if RARE && self.scene.triangles.method != TriangleMethod::Watertight {
-            self.triangles_one_by_one::<f32x16, ANY>(block, at..at + RAYS);
-            return;
-        }
-        let aim = Aim::new(Vec3::<f32x16>::load(&self.rays.direction, at));
-        let origin = self.rays.origins::<f32x16>(at);
-        for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
-            let corners = three(block.triangle(lane), Vec3::from);
-            let seen = three(corners, |corner| Vec3::splat(corner.into()) - origin);
-            if let Some(inside) = covers(&seen, &aim) {
-                self.triangle::<f32x16, ANY, RARE>(at, &Flat::of(corners, origin), inside, id);
-            }
-        }
-    }
-
-    /// The spheres of a block likewise.
-    #[inline(always)]
-    fn sixteen_spheres<const ANY: bool, const RARE: bool>(&mut self, at: usize, block: usize) {
-        let block = &self.bvh.spheres[block];
-        let Some(side) = self.sphere_side::<RARE>() else {
-            self.spheres_one_by_one::<f32x16, ANY>(block, at..at + RAYS);
-            return;
-        };
-        for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
-            self.sphere::<f32x16, ANY, RARE>(&sphere_of(block, lane, side), at..at + RAYS, id);
         }
     }
 }

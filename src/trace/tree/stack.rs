@@ -114,3 +114,57 @@ impl Stack {
         self.len += 1;
     }
 }
+
+/// A child, the distance from which on some ray may hit it, and those that may.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    pub enter: f32,
+    pub child: Child,
+    pub lanes: u32,
+}
+
+/// What is left of a packet's way, the nearest of every node's on top.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    parts: [Part; ROOM],
+    len: usize,
+}
+
+impl Default for Parts {
+    fn default() -> Self {
+        Self { parts: [Part { enter: 0.0, child: Child::EMPTY, lanes: 0 }; ROOM], len: 0 }
+    }
+}
+
+impl Parts {
+    /// Forgets all.
+    #[inline(always)]
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The next one.
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<Part> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.parts[self.len])
+    }
+
+    /// Adds a part where it belongs above `base`.
+    #[inline(always)]
+    pub fn sort_in(&mut self, base: usize, part: Part) {
+        let mut at = self.len;
+        while at > base && self.parts[at - 1].enter < part.enter {
+            self.parts[at] = self.parts[at - 1];
+            at -= 1;
+        }
+        self.parts[at] = part;
+        self.len += 1;
+    }
+}

@@ -4,8 +4,8 @@ use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MOST_LANES, NONE, RayBatch, Vec3};
 
 use super::line::Lines;
-use super::packet::Parts;
-use super::stack::Stack;
+use super::stack::{Parts, Stack};
+use crate::trace::query::Query;
 
 /// Per ray: the end of its interval, the hit that set it, and what the triangles' test needs of its direction. Kept
 /// from batch to batch.
@@ -87,10 +87,10 @@ impl State {
     /// Takes hits of one primitive at `t` in packet `at`, where `inside` is true: whether any is nearer than what there
     /// was, or as near with a lower id.
     #[inline(always)]
-    pub fn take<L: Lanes, const ANY: bool>(&mut self, at: usize, t: L, inside: L::Mask, id: u32) -> bool {
+    pub fn take<Q: Query, L: Lanes>(&mut self, at: usize, t: L, inside: L::Mask, id: u32) -> bool {
         let old = L::load(&self.t[at..]);
         let mut closer = inside & t.lt(old);
-        if ANY {
+        if Q::ANY {
             L::splat(f32::NEG_INFINITY).select(closer, old).store(&mut self.t[at..]);
             return closer.any();
         }

@@ -1,0 +1,35 @@
+//! Room to work in, kept from batch to batch; one a thread.
+
+use super::candidates::{AnyOrigin, CommonOrigin, Lists};
+use super::tree::State;
+
+/// What both queries need beside the scene and the rays. What it holds matters only while a batch is traced.
+#[derive(Default)]
+pub struct Scratch {
+    /// For batches whose rays share their origin.
+    pub(super) common: Lists<CommonOrigin>,
+    /// For those whose rays do not.
+    pub(super) any: Lists<AnyOrigin>,
+    tree: Option<Box<State>>,
+}
+
+/// A copy starts out empty.
+impl Clone for Scratch {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl std::fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.debug_struct("Scratch").finish_non_exhaustive()
+    }
+}
+
+impl Scratch {
+    /// What the way through a tree needs.
+    #[inline(always)]
+    pub(super) fn tree(&mut self) -> &mut State {
+        self.tree.get_or_insert_default()
+    }
+}

@@ -1,0 +1,106 @@
+//! Triangles of a block: what the test needs of the directions is known, and corners come in the order of the axes after
+//! the directions' largest.
+
+use super::leaf::{Alone, Group, Leaf, Sixteen, columns, met, take_eight};
+use super::walk::Walk;
+use crate::bvh::Block;
+use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, there};
+use crate::geometry::{Sides, Triangles};
+use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
+use crate::trace::query::Query;
+use wide::{f32x8, f32x16};
+
+/// Cache lines of the next batch that are fetched for every triangle.
+const LINES: usize = 8;
+
+impl Leaf for Triangles {
+    #[inline(always)]
+    fn group<Q: Query, L: Lanes, const MIXED: bool>(
+        walk: &mut Walk,
+        block: &Block<Self>,
+        sides: Sides,
+        group: &Group<L, MIXED>,
+    ) -> bool {
+        let mut left = met(block, group);
+        let mut taken = false;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            let columns = &block.shape.corners;
+            walk.ahead.step(LINES);
+            for at in group.range.clone().step_by(L::WIDTH) {
+                let origin = walk.rays.origins::<L>(at);
+                let inside = match group.beam.major {
+                    Some(major) => {
+                        let origin = origin.ordered(major);
+                        let axis = |k: usize, i: usize| L::splat(columns[k][(major + 1 + i) % 3][lane]) - origin[i];
+                        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
+                        covers_ordered(&seen, walk.state.shear(at))
+                    }
+                    None => {
+                        let aim = Aim::new(Vec3::load(&walk.rays.direction, at));
+                        let corners = block.primitive(lane).corners();
+                        covers(&three(corners, |c| Vec3::splat(c.into()) - origin), &aim)
+                    }
+                };
+                let Some(inside) = inside else { continue };
+                let flat = Flat::of(block.primitive(lane).corners(), origin);
+                taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
+            }
+        }
+        taken
+    }
+
+    #[inline(always)]
+    fn sixteen<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, rays: &Sixteen) -> bool {
+        let aim = Aim::new(Vec3::<f32x16>::load(&walk.rays.direction, rays.at));
+        let origin = walk.rays.origins::<f32x16>(rays.at);
+        let mut taken = false;
+        for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
+            let corners = block.primitive(lane).corners();
+            let seen = three(corners, |corner| Vec3::splat(corner.into()) - origin);
+            if let Some(inside) = covers(&seen, &aim) {
+                taken |= take::<Q, f32x16>(walk, rays.at, &Flat::of(corners, origin), sides, inside, id);
+            }
+        }
+        taken
+    }
+
+    #[inline(always)]
+    fn alone<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, ray: &Alone) -> bool {
+        let from = ray.packet.origin.ordered(ray.major);
+        let TriangleShape { corners } = &block.shape;
+        let axis = |k: usize, i: usize| f32x8::from(corners[k][(ray.major + 1 + i) % 3]) - from[i];
+        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
+        let Some(inside) = covers_ordered(&seen, ray.shear) else { return false };
+        let corners = columns(block).corners();
+        let [a, b, c] = three(corners, |c| c - ray.packet.origin);
+        let n = normal(corners);
+        let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
+        let (t, inside) = flat.distance(ray.packet.direction, inside);
+        let mut inside = inside & Lanes::gt(t, ray.packet.t_min);
+        if sides != Sides::Both {
+            inside = inside & there(sides, n.dot(ray.packet.direction));
+        }
+        take_eight::<Q>(walk, ray.i, t, inside, &block.id)
+    }
+}
+
+/// Takes the hits of a triangle that packet `at` passes through where `inside` is true.
+#[inline(always)]
+fn take<Q: Query, L: Lanes>(
+    walk: &mut Walk,
+    at: usize,
+    flat: &Flat<L>,
+    sides: Sides,
+    inside: L::Mask,
+    id: u32,
+) -> bool {
+    let direction = Vec3::load(&walk.rays.direction, at);
+    let (t, mut inside) = flat.distance(direction, inside);
+    if sides != Sides::Both {
+        inside = inside & there(sides, flat.n.dot(direction));
+    }
+    let inside = inside & t.gt(L::load(&walk.rays.t_min[at..]));
+    inside.any() && walk.state.take::<Q, L>(at, t, inside, id)
+}

@@ -1,0 +1,17 @@
+//! What a traversal works on.
+
+use super::state::State;
+use crate::bvh::Bvh;
+use crate::math::RayBatch;
+use crate::scene::Scene;
+use crate::trace::ahead::Ahead;
+
+/// A batch on its way through the tree. The traversals are generic over the query `Q`; `MIXED` says that a beam or
+/// packet has an axis with both directions.
+pub struct Walk<'a> {
+    pub scene: &'a Scene,
+    pub bvh: &'a Bvh,
+    pub rays: &'a RayBatch,
+    pub ahead: Ahead<'a>,
+    pub state: &'a mut State,
+}
