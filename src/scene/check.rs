@@ -1,7 +1,7 @@
 //! What makes a description sound: every rule, once, whoever wrote the description.
 
 use super::kinds::{Kind, each_kind};
-use super::rules::{Place, color, direction, finite, fov, key_part, point, positive, require, rule, triple};
+use super::rules::{At, color, direction, finite, fov, key_part, point, positive, require, rule, triple};
 use super::{Description, Dome, Invalid, Material, Pigment, Sky};
 
 /// Indices of refraction: from well below that of anything but vacuum in glass, to well above diamond's.
@@ -47,7 +47,7 @@ pub fn check(description: &Description) -> Result<(), Invalid> {
 
 /// The elements of one kind.
 fn elements<K: Kind>(all: &[K], materials: usize) -> Result<(), Invalid> {
-    all.iter().enumerate().try_for_each(|(i, element)| element.check(&Place::new(K::KEY, i, materials)))
+    all.iter().enumerate().try_for_each(|(i, element)| element.check(&At::new(K::KEY, i, materials)))
 }
 
 fn camera(description: &Description) -> Result<(), Invalid> {

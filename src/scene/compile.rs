@@ -137,20 +137,19 @@ macro_rules! with_primitive {
         let (scene, id): (&$crate::scene::Scene, u32) = ($scene, $id);
         $crate::kinds::for_each_kind! { with_primitive @list (scene, id, $kind, $i, $body) }
     }};
-    (@list $on:tt unbounded { $($unbounded:tt)* } bounded { $($bounded:tt)* }) => {
-        with_primitive! { @from $on $($unbounded)* $($bounded)* }
+    (@list $to:tt unbounded { $($unbounded:tt)* } bounded { $($bounded:tt)* }) => {
+        with_primitive! { @from $to $($unbounded)* $($bounded)* }
     };
     // It is of a kind when its id is below the next one's first.
-    (@from $on:tt ($here:ident: $($_here:tt)*) ($next:ident: $($_next:tt)*) $($more:tt)*) => {
-        with_primitive! { @if $on $here $next { with_primitive! { @from $on ($next: $($_next)*) $($more)* } } }
-    };
-    (@from $on:tt ($last:ident: $($_last:tt)*)) => {
-        with_primitive! { @of $on $last }
-    };
-    (@if ($scene:ident, $id:ident, $($on:tt)*) $here:ident $next:ident $otherwise:block) => {
+    (@from ($scene:ident, $id:ident, $($to:tt)*) ($here:ident: $($_1:tt)*) ($next:ident: $($_2:tt)*) $($more:tt)*) => {
         if $id < $scene.first.$next {
-            with_primitive! { @of ($scene, $id, $($on)*) $here }
-        } else $otherwise
+            with_primitive! { @of ($scene, $id, $($to)*) $here }
+        } else {
+            with_primitive! { @from ($scene, $id, $($to)*) ($next: $($_2)*) $($more)* }
+        }
+    };
+    (@from $to:tt ($last:ident: $($_1:tt)*)) => {
+        with_primitive! { @of $to $last }
     };
     (@of ($scene:ident, $id:ident, $kind:ident, $i:ident, $body:expr) $here:ident) => {{
         let ($kind, $i) = (&$scene.$here, ($id - $scene.first.$here) as usize);

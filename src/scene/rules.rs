@@ -22,13 +22,13 @@ const MAX_BODY_LENGTH: f32 = MAX_MESH_LENGTH;
 const MIN_FOV: f32 = 0.01;
 
 /// Which element of which array of the description is checked: `sphere[3]`.
-pub(crate) struct Place {
+pub(crate) struct At {
     key: &'static str,
     index: usize,
     materials: usize,
 }
 
-impl Place {
+impl At {
     /// Element `index` of the array `key`, where there are so many materials.
     pub(super) fn new(key: &'static str, index: usize, materials: usize) -> Self {
         Self { key, index, materials }
@@ -51,7 +51,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for At {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}]", self.key, self.index)
     }

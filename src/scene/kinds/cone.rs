@@ -7,12 +7,12 @@ use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cones;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, axis, end_radius, place, require};
+use crate::scene::rules::{At, axis, end_radius, place, require};
 use crate::scene::{Invalid, Sides};
 
 /// A cone or frustum about the line from `base` to `apex`. The radii differ, and one of them may be zero.
 ///
-/// (u, v) and checker coordinates are those of a [`Cylinder`], with the cap's own radius.
+/// (u, v) and checker coordinates are those of a [`Cylinder`](super::Cylinder), with the cap's own radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     /// The middle of one end.
@@ -69,7 +69,7 @@ impl Kind for Cone {
     type Elements = Array<ConeFile>;
     type Storage = Cones;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("apex", axis(self.base, self.apex))?;
         at.rule("base", place(self.base))?;
         at.rule("base_radius", end_radius(self.base_radius))?;

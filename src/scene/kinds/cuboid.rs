@@ -8,7 +8,7 @@ use crate::bvh::Aabb;
 use crate::geometry::Cuboids;
 use crate::scene::Invalid;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{MIN_RADIUS, Place, angles, place, require, triple};
+use crate::scene::rules::{At, MIN_RADIUS, angles, place, require, triple};
 
 /// A box, seen from outside and inside.
 ///
@@ -54,7 +54,7 @@ impl Kind for Cuboid {
     type Elements = Array<BoxFile>;
     type Storage = Cuboids;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("min", place(self.min))?;
         at.rule("max", place(self.max))?;
         // Thinner than a few ε of its place it has no inside.

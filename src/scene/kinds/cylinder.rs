@@ -7,7 +7,7 @@ use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cylinders;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, axis, place, size};
+use crate::scene::rules::{At, axis, place, size};
 use crate::scene::{Invalid, Sides};
 
 /// A cylinder about the line from `base` to `apex`.
@@ -62,7 +62,7 @@ impl Kind for Cylinder {
     type Elements = Array<CylinderFile>;
     type Storage = Cylinders;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("apex", axis(self.base, self.apex))?;
         at.rule("base", place(self.base))?;
         at.rule("radius", size(self.radius))?;

@@ -8,7 +8,7 @@ use crate::bvh::Aabb;
 use crate::geometry::Fractals;
 use crate::scene::Invalid;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, place, require, size};
+use crate::scene::rules::{At, place, require, size};
 
 /// The most iterations of a fractal: its smallest cubes are 3⁻⁸ of the whole, some thousand ε.
 const MAX_ITERATIONS: u32 = 8;
@@ -16,7 +16,7 @@ const MAX_ITERATIONS: u32 = 8;
 /// A Menger sponge: a cube of which every iteration removes, from each of its 20 · 20 · … cubes, the middle third
 /// of each of the three directions. Seen from outside and inside.
 ///
-/// (u, v) and checker coordinates are those of a [`Cuboid`] as large as the whole cube, by the face's direction.
+/// (u, v) and checker coordinates are those of a [`Cuboid`](super::Cuboid) as large as the whole cube, by the face's direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractal {
     /// The middle of the cube.
@@ -57,7 +57,7 @@ impl Kind for Fractal {
     type Elements = Array<FractalFile>;
     type Storage = Fractals;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("center", place(self.center))?;
         at.rule("radius", size(self.radius))?;
         let iterations = self.iterations;

@@ -16,7 +16,7 @@ mod triangle;
 use glam::Vec3;
 
 use super::read::Elements;
-use super::rules::Place;
+use super::rules::At;
 use super::{Description, Invalid, Plan, Sides};
 use crate::bvh::Aabb;
 use crate::geometry::methods::Methods;
@@ -49,7 +49,7 @@ pub(crate) trait Kind: Sized {
     type Storage: Default;
 
     /// Whether it is sound.
-    fn check(&self, at: &Place) -> Result<(), Invalid>;
+    fn check(&self, at: &At) -> Result<(), Invalid>;
     /// Tells all materials that it wears.
     fn materials(&self, wear: &mut impl FnMut(usize));
     /// Whether the shadow rays of a light may start there; `near` says so of a place, for something of a size.

@@ -8,7 +8,7 @@ use crate::bvh::Aabb;
 use crate::geometry::Planes;
 use crate::scene::Invalid;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, direction, offset};
+use crate::scene::rules::{At, direction, offset};
 
 /// An infinite plane: the points p with p·normal + distance = 0. Seen from both sides.
 ///
@@ -49,7 +49,7 @@ impl Kind for Plane {
     type Elements = Array<PlaneFile>;
     type Storage = Planes;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("normal", direction(self.normal))?;
         at.rule("distance", offset(self.normal, self.distance))?;
         at.material(self.material)

@@ -8,7 +8,7 @@ use crate::bvh::Aabb;
 use crate::geometry::Quads;
 use crate::scene::Invalid;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, area, place};
+use crate::scene::rules::{At, area, place};
 
 /// The parallelogram of the points corner + a u + b v, a and b from 0 to 1; seen from both sides. The front is where
 /// u × v points.
@@ -51,7 +51,7 @@ impl Kind for Quad {
     type Elements = Array<QuadFile>;
     type Storage = Quads;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         for (v, name) in [(self.corner, "corner"), (self.u, "u"), (self.v, "v")] {
             at.rule(name, place(v))?;
         }

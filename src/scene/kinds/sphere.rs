@@ -8,7 +8,7 @@ use crate::bvh::Aabb;
 use crate::geometry::Spheres;
 use crate::geometry::methods::{Methods, SphereMethod};
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, length, point};
+use crate::scene::rules::{At, length, point};
 use crate::scene::{Invalid, Plan, Sides};
 
 /// A sphere.
@@ -56,7 +56,7 @@ impl Kind for Sphere {
     type Elements = Array<SphereFile>;
     type Storage = Spheres;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("center", point(self.center))?;
         at.rule("radius", length(self.radius))?;
         at.material(self.material)

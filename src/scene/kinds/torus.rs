@@ -9,7 +9,7 @@ use crate::geometry::Tori;
 use crate::geometry::methods::{Methods, TorusMethod};
 use crate::scene::Invalid;
 use crate::scene::read::{Array, Element, Fault, Reader, Triple};
-use crate::scene::rules::{Place, direction, place, require, size};
+use crate::scene::rules::{At, direction, place, require, size};
 
 /// A torus: the points at `minor_radius` from the circle of `major_radius` about `center`, across `axis`. Seen from
 /// outside and inside.
@@ -65,7 +65,7 @@ impl Kind for Torus {
     type Elements = Array<TorusFile>;
     type Storage = Tori;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         at.rule("center", place(self.center))?;
         at.rule("axis", direction(self.axis))?;
         at.rule("major_radius", size(self.major_radius))?;

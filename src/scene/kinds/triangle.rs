@@ -10,7 +10,7 @@ use crate::bvh::Aabb;
 use crate::geometry::methods::{Methods, TriangleMethod};
 use crate::geometry::{Primitives, Triangles};
 use crate::scene::read::{Array, Element, Exactly, Fault, Reader, Triple};
-use crate::scene::rules::{Place, area, direction, require, vertex};
+use crate::scene::rules::{At, area, direction, require, vertex};
 use crate::scene::{Invalid, Material, Sides};
 
 /// Triangles that share vertices; the front is where the corners run counter-clockwise.
@@ -138,7 +138,7 @@ impl Kind for Mesh {
     type Elements = (Array<MeshFile>, Array<TriangleFile>);
     type Storage = Triangles;
 
-    fn check(&self, at: &Place) -> Result<(), Invalid> {
+    fn check(&self, at: &At) -> Result<(), Invalid> {
         self.check_vertices(at)?;
         self.check_triangles(at)?;
         at.material(self.material)?;
@@ -196,7 +196,7 @@ impl Kind for Mesh {
 }
 
 impl Mesh {
-    fn check_vertices(&self, at: &Place) -> Result<(), Invalid> {
+    fn check_vertices(&self, at: &At) -> Result<(), Invalid> {
         for (i, p) in self.positions.iter().enumerate() {
             at.rule(format_args!("positions[{i}]"), vertex(*p))?;
         }
@@ -214,7 +214,7 @@ impl Mesh {
         Ok(())
     }
 
-    fn check_triangles(&self, at: &Place) -> Result<(), Invalid> {
+    fn check_triangles(&self, at: &At) -> Result<(), Invalid> {
         let [materials, triangles] = [self.materials.len(), self.triangles.len()];
         let fit = [0, triangles].contains(&materials);
         at.rule("materials", require(fit, || format!("{materials} for {triangles} triangles")))?;

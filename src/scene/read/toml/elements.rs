@@ -2,10 +2,10 @@
 
 use serde::de::{DeserializeOwned, MapAccess};
 
-use super::super::{Progress, assets::Assets, image::Images, obj, strict::Table};
 use super::materials::Names;
 use crate::kinds::for_each_kind;
 use crate::scene::kinds::Kind;
+use crate::scene::read::{Progress, assets::Assets, image::Images, obj, strict::Table};
 use crate::scene::{Description, Invalid, Material};
 
 /// What is wrong with a key of an element.
