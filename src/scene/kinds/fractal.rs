@@ -16,7 +16,8 @@ const MAX_ITERATIONS: u32 = 8;
 /// A Menger sponge: a cube of which every iteration removes, from each of its 20 · 20 · … cubes, the middle third
 /// of each of the three directions. Seen from outside and inside.
 ///
-/// (u, v) and checker coordinates are those of a [`Cuboid`](super::Cuboid) as large as the whole cube, by the face's direction.
+/// (u, v) and checker coordinates are those of a [`Cuboid`](super::Cuboid) as large as the whole cube, by the face's
+/// direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractal {
     /// The middle of the cube.

@@ -31,7 +31,8 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Which side is there.
     pub sides: Sides,
-    /// A material for every triangle, as indices into [`Description::materials`](crate::scene::Description::materials), or nothing when `material` is all.
+    /// A material for every triangle, as indices into [`Description::materials`](crate::scene::Description::materials),
+    /// or nothing when `material` is all.
     pub materials: Vec<u32>,
     /// Index into [`Description::materials`](crate::scene::Description::materials).
     pub material: usize,
