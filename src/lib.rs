@@ -47,7 +47,8 @@
 //! - [`render`]: camera, tiles, film, tone mapping, picture files
 //! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
 //! - [`trace`]: the two queries over a compiled scene, for a batch of rays or a stream of them
-//! - [`scene`]: what the user wrote, its readers and rules, the built-in scenes, `compile`, the plan
+//! - [`scene`]: what the user wrote, a file a kind of primitive, its readers and rules, the built-in scenes, `compile`,
+//!   the plan
 //! - [`bvh`]: the acceleration structure: build and layout
 //! - [`geometry`]: a file a primitive: storage, tests by named [`geometry::methods`], surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits

@@ -2,8 +2,8 @@
 
 use raypacket::math::Lanes;
 use raypacket::measure::cases::{ALL, Case, Generator, Ray, Subject, find};
-use raypacket::scene::{Description, Scene, Structure, compile_as};
-use raypacket::trace::{BATCH, Blocked, Hit, HitBatch, NONE, RayBatch, Scratch, intersect, intersect_one, occluded};
+use raypacket::scene::{Description, Scene, Structure, compile, compile_with};
+use raypacket::trace::{BATCH, Blocked, Scratch, Hit, HitBatch, NONE, RayBatch, intersect, intersect_one, occluded};
 use wide::{f32x4, f32x8};
 
 /// Rays a setting: more than a batch, and no multiple of a packet.
@@ -37,7 +37,7 @@ fn traced<L: Lanes>(scene: &Scene, rays: &[Ray], name: &str) -> Vec<(u32, u32)> 
 /// Traces a case every way, and returns the hits.
 fn agree(case: &Case, name: &str) -> Vec<Option<Hit>> {
     let [list, tree] = [Structure::None, Structure::Tree]
-        .map(|s| compile_as(&case.description, Some(s)).unwrap_or_else(|e| panic!("{name}: {e}")));
+        .map(|s| compile_with(&case.description, &s.into()).unwrap_or_else(|e| panic!("{name}: {e}")));
     let wanted = traced::<f32>(&list, &case.rays, name);
     let others = [
         ("x4", traced::<f32x4>(&list, &case.rays, name)),
@@ -127,7 +127,7 @@ fn what_leaves_is_met_from_outside() {
     for generator in ALL.iter().filter(|g| g.name.ends_with("-leaving")) {
         for (dial, seed) in generator.dial.settings(SETTINGS).zip(0..) {
             let case = generator.make(dial, RAYS, seed);
-            let scene = compile_as(&case.description, None).expect("a sound scene");
+            let scene = compile(&case.description).expect("a sound scene");
             // Even rays go to where the normal points.
             let mut near = 0;
             let outward = case.rays.iter().step_by(2);

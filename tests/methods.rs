@@ -7,8 +7,11 @@ use glam::{Vec3, vec3};
 use raypacket::geometry::methods::{Choice, NormalizeMethod, OffsetMethod, SphereMethod, TorusMethod, TriangleMethod};
 use raypacket::math::Lanes;
 use raypacket::render::{Camera, Film, Kernel, render};
-use raypacket::scene::{Description, Material, Mesh, Quad, Scene, Sides, Sphere, Structure, Torus, compile_with, load};
-use raypacket::trace::{BATCH, Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
+use raypacket::scene::{
+    CompileOptions, Description, Material, Mesh, Quad, Scene, Sides, Sphere, Structure, Torus, compile, compile_with,
+    load,
+};
+use raypacket::trace::{BATCH, Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use common::{Pcg, light};
@@ -89,7 +92,9 @@ fn every_method_gives_one_answer_on_all_widths() {
     for choice in choices() {
         for structure in [Structure::None, Structure::Tree] {
             let what = format!("{choice:?}, {structure:?}");
-            let scene = compile_with(&description, Some(structure), &[choice]).expect("a sound scene");
+            let scene =
+                compile_with(&description, &CompileOptions { structure: Some(structure), methods: vec![choice] })
+                    .expect("a sound scene");
             let wanted = answers::<f32>(&scene, &what);
             assert_eq!(answers::<f32x4>(&scene, &what), wanted, "{what}, x4");
             assert_eq!(answers::<f32x8>(&scene, &what), wanted, "{what}, x8");
@@ -103,7 +108,9 @@ fn every_method_gives_one_answer_on_all_widths() {
 fn near_and_from_outside_all_methods_see_the_same() {
     let description = room();
     let trace = |choice| {
-        let scene = compile_with(&description, Some(Structure::None), &[choice]).expect("a sound scene");
+        let scene =
+            compile_with(&description, &CompileOptions { structure: Some(Structure::None), methods: vec![choice] })
+                .expect("a sound scene");
         answers::<f32x8>(&scene, "")
     };
     let wanted = trace(Choice::Offset(OffsetMethod::Derived));
@@ -122,7 +129,7 @@ fn near_and_from_outside_all_methods_see_the_same() {
 }
 
 fn picture(description: &Description, choices: &[Choice], samples: u32) -> Film {
-    let scene = compile_with(description, None, choices).expect("a sound scene");
+    let scene = compile_with(description, &choices.into()).expect("a sound scene");
     let mut film = Film::new(128, 64);
     render(&scene, &Camera::new(&description.camera, 2.0), Kernel::X8, samples, &mut film, &|_| ());
     film
@@ -143,11 +150,11 @@ fn difference(a: &Film, b: &Film) -> f64 {
 fn what_the_plan_chooses_for_speed_is_not_seen() {
     // Near enough for the cheap method, by its bound.
     let mut description = Description { lights: vec![light(vec3(1.0, 2.0, -1.0))], ..alone(vec3(0.0, 0.0, -5.0), 1.5) };
-    let plan = compile_with(&description, None, &[]).expect("a sound scene").plan;
-    assert_eq!(plan.methods.sphere, SphereMethod::Stable, "by default nothing may change: {plan}");
+    let plan = compile(&description).expect("a sound scene").plan;
+    assert_eq!(plan.methods.sphere, SphereMethod::Stable, "by default nothing may change: {}", plan.why);
     description.settings.tolerance = 1.0 / 255.0;
-    let plan = compile_with(&description, None, &[]).expect("a sound scene").plan;
-    assert_eq!(plan.methods.sphere, SphereMethod::Quadratic, "{plan}");
+    let plan = compile(&description).expect("a sound scene").plan;
+    assert_eq!(plan.methods.sphere, SphereMethod::Quadratic, "{}", plan.why);
     let stable = Choice::Sphere(SphereMethod::Stable);
     // One of 256 rays of a pixel does not show.
     assert_eq!(difference(&picture(&description, &[], 16), &picture(&description, &[stable], 16)), 0.0);

@@ -1,8 +1,9 @@
 //! `raypacket info`: what a scene holds and how it will be traced.
 
 use super::args::{DEFAULT_SCENE, Methods, count};
+use super::plan::PlanText;
 use super::{Failure, input, print};
-use raypacket::scene::{Description, Scene, Sky, one_line};
+use raypacket::scene::{Description, KINDS, Scene, Sky, one_line};
 use std::fmt;
 
 #[derive(clap::Args)]
@@ -45,7 +46,7 @@ impl fmt::Display for Summary<'_> {
             camera.eye, camera.look_at, camera.up, camera.fov
         )?;
         f.write_str("plan")?;
-        for line in compiled.plan.to_string().lines() {
+        for line in PlanText(&compiled.plan).to_string().lines() {
             write!(f, "\n  {line}")?;
             if line.starts_with("structure") {
                 tree(compiled, f)?;
@@ -66,25 +67,16 @@ fn tree(scene: &Scene, f: &mut fmt::Formatter<'_>) -> fmt::Result {
 
 /// The numbers of primitives by kind, of those that there are.
 fn kinds(scene: &Description) -> Vec<String> {
-    let triangles = scene.meshes.iter().map(|m| m.triangles.len()).sum();
-    let counts = [
-        (scene.planes.len(), "plane", "planes"),
-        (scene.spheres.len(), "sphere", "spheres"),
-        (triangles, "triangle", "triangles"),
-        (scene.quads.len(), "quad", "quads"),
-        (scene.cuboids.len(), "box", "boxes"),
-        (scene.cylinders.len(), "cylinder", "cylinders"),
-        (scene.cones.len(), "cone", "cones"),
-        (scene.tori.len(), "torus", "tori"),
-        (scene.fractals.len(), "fractal", "fractals"),
-    ];
     let count = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
-    let kind = |(n, one, many): (usize, &str, &str)| match one {
-        _ if n == 0 => None,
-        "triangle" => Some(format!("{} in {}", count(n, one, many), count(scene.meshes.len(), "mesh", "meshes"))),
-        _ => Some(count(n, one, many)),
-    };
-    counts.into_iter().filter_map(kind).collect()
+    let kinds = KINDS.iter().zip(scene.counts()).filter(|(_, n)| *n > 0);
+    let kinds = kinds.map(|(kind, n)| match kind.one {
+        "triangle" => {
+            let meshes = count(scene.meshes.len(), "mesh", "meshes");
+            format!("{} in {meshes}", count(n, kind.one, kind.many))
+        }
+        _ => count(n, kind.one, kind.many),
+    });
+    kinds.collect()
 }
 
 fn sky(sky: &Sky) -> String {

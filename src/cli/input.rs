@@ -33,7 +33,7 @@ const MANY: usize = 500_000;
 pub fn compile(name: &str, description: &Description, choices: &[Choice]) -> Result<Scene, Failure> {
     let primitives = description.primitives() - description.planes.len();
     let _spinner = (primitives > MANY).then(|| Spinner::new(format!("building the tree of {primitives} primitives")));
-    scene::compile_with(description, None, choices).map_err(|e| Failure::input(format!("{name}: {e}")))
+    scene::compile_with(description, &choices.into()).map_err(|e| Failure::input(format!("{name}: {e}")))
 }
 
 /// Says whether what [`load`] read from `name` could be compiled.

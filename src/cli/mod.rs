@@ -9,6 +9,7 @@ mod bench;
 mod chart;
 mod info;
 mod input;
+mod plan;
 mod print;
 mod progress;
 mod render;

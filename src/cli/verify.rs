@@ -37,10 +37,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::input(format!("--size {}: verify compares at most {most} pixels", args.size)));
     }
     let scenes = input::load_all(&names)?;
+    let options = args.methods.choices.as_slice().into();
     let mut reports = Vec::new();
     for (name, scene) in names.iter().zip(&scenes) {
         input::check(name, scene)?;
-        let report = verify::verify_by(scene, &args.methods.choices, &Kernel::ALL, args.size.width, args.size.height);
+        let report = verify::verify_with(scene, &options, &Kernel::ALL, args.size.width, args.size.height);
         if !matches!(json, Some(Json::Stdout)) {
             print::line(&report)?;
         }

@@ -141,7 +141,8 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
 fn agrees_with_reference(description: &Description, scene: &Scene) -> bool {
     let affordable = 200_000_000 / (description.primitives() + 20);
     let height = ((affordable / 2) as f64).sqrt().clamp(8.0, 128.0) as usize;
-    super::verify::verify_by(description, &scene.plan.methods.choices(), &Kernel::ALL, 2 * height, height).pass
+    let options = scene.plan.methods.choices().as_slice().into();
+    super::verify::verify_with(description, &options, &Kernel::ALL, 2 * height, height).pass
 }
 
 /// Times one query at every kernel; also whether all kernels gave the same bits.

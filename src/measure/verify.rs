@@ -30,9 +30,8 @@
 //!   bound of an edge of an object, of a shadow, of a checker cell or of a mirror image.
 //!
 //! So a wrong answer in the interior of anything is never explained.
-use crate::geometry::methods::Choice;
 use crate::render::{self, Film, Kernel};
-use crate::scene::{self, Description};
+use crate::scene::{self, CompileOptions, Description};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -94,15 +93,21 @@ impl Traced {
 /// # Panics
 /// When `scene` is not sound; [`crate::scene::check`] says so beforehand.
 pub fn verify(scene: &Description, kernels: &[Kernel], width: usize, height: usize) -> Report {
-    verify_by(scene, &[], kernels, width, height)
+    verify_with(scene, &CompileOptions::default(), kernels, width, height)
 }
 
-/// The same, with methods of the caller's choice.
+/// The same, of a scene compiled with options.
 ///
 /// # Panics
 /// As [`verify`].
-pub fn verify_by(scene: &Description, choices: &[Choice], kernels: &[Kernel], width: usize, height: usize) -> Report {
-    let compiled = scene::compile_with(scene, None, choices).expect("a sound scene");
+pub fn verify_with(
+    scene: &Description,
+    options: &CompileOptions,
+    kernels: &[Kernel],
+    width: usize,
+    height: usize,
+) -> Report {
+    let compiled = scene::compile_with(scene, options).expect("a sound scene");
     let camera = render::Camera::new(&scene.camera, width as f32 / height as f32);
     let traced: Vec<_> =
         kernels.iter().map(|&kernel| (kernel, Traced::new(&compiled, &camera, kernel, width, height))).collect();

@@ -1,5 +1,7 @@
+use glam::Vec3;
+
 use super::*;
-use crate::scene::{CameraDescription, Light, Plane, Settings, Sides, Sky, Sphere};
+use crate::scene::{CameraDescription, Light, Mesh, Plane, Settings, Sides, Sky, Sphere};
 
 fn sound() -> Description {
     let material = Material { name: "grey".into(), pigment: Pigment::Color(Vec3::ONE), ..Material::default() };

@@ -25,6 +25,13 @@ pub struct Chosen {
     pub reason: String,
 }
 
+impl Chosen {
+    /// The default.
+    pub fn stable(reason: &str) -> Self {
+        Self { method: SphereMethod::Stable, reason: reason.to_owned() }
+    }
+}
+
 /// How to test the spheres of a scene.
 ///
 /// By `quadratic`, b² − c is off by at most 21 ε D² for a ray that starts D from the centre (5 ε D² of c, 7 of b², 8 of a
@@ -33,7 +40,7 @@ pub struct Chosen {
 /// there where it is nearest to the eye. D is at most the distance to the farthest thing, as rays start at the eye, at
 /// lights and on surfaces.
 pub(super) fn sphere(description: &Description, boxes: &[Aabb], structure: Structure) -> Chosen {
-    let stable = |reason: &str| Chosen { method: SphereMethod::Stable, reason: reason.to_owned() };
+    let stable = Chosen::stable;
     match () {
         _ if description.spheres.is_empty() => return stable("there is none"),
         _ if structure == Structure::Tree => return stable("the tree tests blocks of them by it"),
@@ -85,6 +92,7 @@ fn farthest(bounds: &Aabb, from: DVec3) -> f64 {
 mod tests {
     use super::super::{Material, Sphere, compile, compile_with, load};
     use super::*;
+    use crate::geometry::methods::OffsetMethod;
     use glam::Vec3;
 
     /// What a display cannot show, of a pixel that is averaged.
@@ -152,11 +160,11 @@ mod tests {
     fn what_is_asked_for_goes_before_what_is_planned() {
         let description = pair(1.0, 5.0);
         let plan = |choice: &str| {
-            let choices = [choice.parse().expect("a method")];
-            compile_with(&description, None, &choices).expect("a sound scene").plan
+            let choices: &[_] = &[choice.parse().expect("a method")];
+            compile_with(&description, &choices.into()).expect("a sound scene").plan
         };
         assert_eq!(plan("sphere=double").methods.sphere, SphereMethod::Double);
-        assert!(plan("sphere=double").to_string().contains("method `double`: as asked for"));
-        assert!(plan("offset=none").to_string().contains("offset      method `none`, as asked for"));
+        assert_eq!(plan("sphere=double").why, "as asked for");
+        assert_eq!(plan("offset=none").methods.offset, OffsetMethod::None);
     }
 }

@@ -6,47 +6,42 @@
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 pub use crate::geometry::Sides;
+use crate::kinds::for_each_kind;
 
-/// A whole scene. Made by a reader, a built-in, or by hand; [`crate::scene::check`] says whether it is sound.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Description {
-    /// A short name for messages: the built-in's name or the file's stem.
-    pub name: String,
-    /// Where the scene is looked at from.
-    pub camera: CameraDescription,
-    /// Depth, light fall-off, ambient light.
-    pub settings: Settings,
-    /// What a ray that hits nothing sees.
-    pub sky: Sky,
-    /// Point lights.
-    pub lights: Vec<Light>,
-    /// Materials; primitives refer to them by index.
-    pub materials: Vec<Material>,
-    /// Texture images; materials refer to them by index.
-    pub textures: Vec<Arc<Texture>>,
-    /// Infinite planes. Primitive ids count through the kinds in this order, from here to the fractals; those of
-    /// the meshes through the triangles of all meshes.
-    pub planes: Vec<Plane>,
-    /// Spheres.
-    pub spheres: Vec<Sphere>,
-    /// Triangle meshes; a single triangle is a mesh too.
-    pub meshes: Vec<Mesh>,
-    /// Parallelograms.
-    pub quads: Vec<Quad>,
-    /// Boxes, aligned to the axes or turned.
-    pub cuboids: Vec<Cuboid>,
-    /// Cylinders, open or capped.
-    pub cylinders: Vec<Cylinder>,
-    /// Cones and frusta, open or capped.
-    pub cones: Vec<Cone>,
-    /// Tori.
-    pub tori: Vec<Torus>,
-    /// Menger sponges.
-    pub fractals: Vec<Fractal>,
+/// The description, with a list of each kind of primitive.
+macro_rules! description {
+    ($($group:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
+        /// A whole scene. Made by a reader, a built-in, or by hand; [`crate::scene::check`] says whether it is sound.
+        ///
+        /// Primitive ids count through the kinds in the order of the fields, from planes to fractals; those of the
+        /// meshes through the triangles of all meshes.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct Description {
+            /// A short name for messages: the built-in's name or the file's stem.
+            pub name: String,
+            /// Where the scene is looked at from.
+            pub camera: CameraDescription,
+            /// Depth, light fall-off, ambient light.
+            pub settings: Settings,
+            /// What a ray that hits nothing sees.
+            pub sky: Sky,
+            /// Point lights.
+            pub lights: Vec<Light>,
+            /// Materials; primitives refer to them by index.
+            pub materials: Vec<Material>,
+            /// Texture images; materials refer to them by index.
+            pub textures: Vec<Arc<Texture>>,
+            $($(
+                #[doc = concat!("Each a [`", stringify!($Kind), "`](crate::scene::", stringify!($Kind), ").")]
+                pub $field: Vec<crate::scene::$Kind>,
+            )*)*
+        }
+    };
 }
+for_each_kind! { description }
 
 /// The lecture's camera: eye E, view direction V towards `look_at`, field of view through the screen's distance d.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -228,180 +223,4 @@ pub enum Pigment {
         /// What one repeat measures in u and v, above 0.
         size: f32,
     },
-}
-
-/// An infinite plane: the points p with p·normal + distance = 0. Seen from both sides.
-///
-/// With the axes T, B of its unit normal ([`crate::geometry::frame`]): (u, v) = (p·T, −p·B), and checker coordinates are
-/// (p·T, p·B).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
-    /// Of any length but zero; the plane is the same when normal and distance are scaled together.
-    pub normal: Vec3,
-    /// The plane's offset.
-    pub distance: f32,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// A sphere.
-///
-/// With n = (p − center) / radius: u = ½ + atan2(n.x, n.z) / 2π, v = ½ + asin(n.y) / π. Checker coordinates are
-/// p − center.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sphere {
-    /// Its centre.
-    pub center: Vec3,
-    /// Above zero.
-    pub radius: f32,
-    /// Which side is there.
-    pub sides: Sides,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// Triangles that share vertices; the front is where the corners run counter-clockwise.
-///
-/// With vertex normals the shading normal is interpolated, and turned to the side of the geometric one that the ray
-/// sees. (u, v) is interpolated from the vertices, or are the corner's barycentric coordinates where there are none:
-/// (0, 0), (1, 0), (0, 1). Checker coordinates are (p·T, p·B) with the axes of [`crate::geometry::frame`] of the
-/// triangle's own normal.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh {
-    /// Vertex positions.
-    pub positions: Vec<Vec3>,
-    /// A direction of any length but zero for every vertex, or nothing.
-    pub normals: Vec<Vec3>,
-    /// Texture coordinates for every vertex, or nothing.
-    pub uvs: Vec<Vec2>,
-    /// Three vertex indices a triangle.
-    pub triangles: Vec<[u32; 3]>,
-    /// Which side is there.
-    pub sides: Sides,
-    /// A material for every triangle, as indices into [`Description::materials`], or nothing when `material` is all.
-    pub materials: Vec<u32>,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// The parallelogram of the points corner + a u + b v, a and b from 0 to 1; seen from both sides. The front is where
-/// u × v points.
-///
-/// (u, v) = (a, b). Checker coordinates are (p·T, p·B) with the axes of [`crate::geometry::frame`] of u × v.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quad {
-    /// One corner.
-    pub corner: Vec3,
-    /// From there to the next.
-    pub u: Vec3,
-    /// And to the other; not parallel to `u`.
-    pub v: Vec3,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// A box, seen from outside and inside.
-///
-/// Turned about its centre by `rotation`: x first, then y, then z. In its own axes, with q = p − centre, every face
-/// is divided into (u, v) from 0 to 1: along (−z, y) on +x, (z, y) on −x, (x, −z) on +y, (x, z) on −y, (x, y) on +z
-/// and (−x, y) on −z, so that an image stands upright on the sides, as seen from outside. Checker coordinates are the
-/// two of q along the face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cuboid {
-    /// The corner with the least coordinates, before it is turned.
-    pub min: Vec3,
-    /// The corner with the greatest; each coordinate greater than `min`'s.
-    pub max: Vec3,
-    /// Degrees about x, y and z.
-    pub rotation: Vec3,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// A cylinder about the line from `base` to `apex`.
-///
-/// With the unit axis A = normalize(apex − base), its axes T, B ([`crate::geometry::frame`]) and q = p − base: on the
-/// side u = ½ + atan2(q·T, q·B) / 2π and v = q·A / |apex − base|; on the caps (u, v) = ½ + (q·T, q·B) / (2 radius).
-/// Checker coordinates are (q·T, q·B, q·A), on the caps only the first two.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cylinder {
-    /// The middle of one end.
-    pub base: Vec3,
-    /// The middle of the other.
-    pub apex: Vec3,
-    /// Above zero.
-    pub radius: f32,
-    /// Whether the ends are closed.
-    pub caps: bool,
-    /// Which side is there.
-    pub sides: Sides,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// A cone or frustum about the line from `base` to `apex`. The radii differ, and one of them may be zero.
-///
-/// (u, v) and checker coordinates are those of a [`Cylinder`], with the cap's own radius.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cone {
-    /// The middle of one end.
-    pub base: Vec3,
-    /// The radius there, zero or more.
-    pub base_radius: f32,
-    /// The middle of the other end.
-    pub apex: Vec3,
-    /// The radius there, zero or more.
-    pub apex_radius: f32,
-    /// Whether the ends are closed.
-    pub caps: bool,
-    /// Which side is there.
-    pub sides: Sides,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// A torus: the points at `minor_radius` from the circle of `major_radius` about `center`, across `axis`. Seen from
-/// outside and inside.
-///
-/// With the unit axis A, its axes T, B ([`crate::geometry::frame`]), q = p − center and ρ = |q − A (q·A)|:
-/// u = ½ + atan2(q·T, q·B) / 2π, v = ½ + atan2(q·A, ρ − major_radius) / 2π. Checker coordinates are
-/// (q·T, q·B, q·A).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Torus {
-    /// Its middle.
-    pub center: Vec3,
-    /// The direction of its axis, of any length but zero.
-    pub axis: Vec3,
-    /// From the middle to the middle of the tube; at least `minor_radius`.
-    pub major_radius: f32,
-    /// Of the tube, above zero.
-    pub minor_radius: f32,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// A Menger sponge: a cube of which every iteration removes, from each of its 20 · 20 · … cubes, the middle third
-/// of each of the three directions. Seen from outside and inside.
-///
-/// (u, v) and checker coordinates are those of a [`Cuboid`] as large as the whole cube, by the face's direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fractal {
-    /// The middle of the cube.
-    pub center: Vec3,
-    /// Half the cube's edge, above zero.
-    pub radius: f32,
-    /// 0 (the whole cube) to 8.
-    pub iterations: u32,
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-impl Description {
-    /// The number of primitives; their ids run from 0 to one less.
-    pub fn primitives(&self) -> usize {
-        let triangles = self.meshes.iter().map(|m| m.triangles.len()).sum::<usize>();
-        let flat = self.planes.len() + triangles + self.quads.len() + self.cuboids.len();
-        let round = self.spheres.len() + self.cylinders.len() + self.cones.len() + self.tori.len();
-        flat + round + self.fractals.len()
-    }
 }

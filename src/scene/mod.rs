@@ -4,15 +4,19 @@ mod check;
 mod choose;
 mod compile;
 mod description;
+mod in_tree;
+mod kinds;
 mod plan;
 mod read;
+mod rules;
 
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
-pub use compile::{Body, First, Scene, compile, compile_as, compile_with};
+pub use compile::{Body, CompileOptions, First, Scene, compile, compile_with};
 pub use description::*;
-pub use plan::{Plan, ShadowStart, Structure};
+pub use kinds::*;
+pub use plan::{Plan, ShadowStart, Structure, Tested};
 pub use read::*;
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.

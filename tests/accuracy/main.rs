@@ -14,8 +14,8 @@ use raypacket::geometry::methods::{Choice, SphereMethod};
 use raypacket::geometry::{Primitives, Surface};
 use raypacket::measure::cases::Ray;
 use raypacket::measure::oracle::Shape;
-use raypacket::scene::{Description, Scene, compile_with};
-use raypacket::trace::{BATCH, HitBatch, NONE, RayBatch, Scratch, intersect};
+use raypacket::scene::{CompileOptions, Description, Scene, compile_with};
+use raypacket::trace::{BATCH, Scratch, HitBatch, NONE, RayBatch, intersect};
 use wide::f32x8;
 
 /// The nearest hit: t, and the primitive's id.
@@ -24,7 +24,11 @@ type Found = Option<(f32, usize)>;
 /// By the default methods: what a scene is traced by otherwise depends on how far its camera and lights are, and here rays
 /// start anywhere.
 fn compiled(description: &Description) -> Scene {
-    compile_with(description, None, &[Choice::Sphere(SphereMethod::Stable)]).expect("a sound scene")
+    compile_with(
+        description,
+        &CompileOptions { methods: vec![Choice::Sphere(SphereMethod::Stable)], ..CompileOptions::default() },
+    )
+    .expect("a sound scene")
 }
 
 /// The public query's answers.

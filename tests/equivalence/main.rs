@@ -9,8 +9,8 @@ mod rays;
 mod scenes;
 
 use raypacket::math::{BATCH, Lanes};
-use raypacket::scene::{Description, Scene, Structure, compile_as};
-use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
+use raypacket::scene::{Description, Scene, Structure, compile_with};
+use raypacket::trace::{Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use common::Pcg;
@@ -98,7 +98,7 @@ impl<'a> Case<'a> {
 
 /// Without a tree and with one.
 fn both(description: &Description) -> [Scene; 2] {
-    [Structure::None, Structure::Tree].map(|s| compile_as(description, Some(s)).expect("a sound scene"))
+    [Structure::None, Structure::Tree].map(|s| compile_with(description, &s.into()).expect("a sound scene"))
 }
 
 fn lengths() -> impl Iterator<Item = usize> {

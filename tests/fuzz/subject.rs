@@ -33,7 +33,8 @@ pub fn run(path: &Path, read: impl FnOnce()) -> Result<usize, String> {
 
 /// How many rays hit. One at a time without a tree and eight at a time with one find the same, to the bit.
 fn trace(description: &Description) -> usize {
-    let compile = |structure| scene::compile_as(description, Some(structure)).expect("what is read is sound");
+    let compile =
+        |structure: Structure| scene::compile_with(description, &structure.into()).expect("what is read is sound");
     let [plain, tree] = [Structure::None, Structure::Tree].map(compile);
     let camera = Camera::new(&description.camera, SIZE[0] as f32 / SIZE[1] as f32);
     let rays = rays(&camera);

@@ -4,8 +4,8 @@ use glam::Vec3;
 use proptest::prelude::*;
 use raypacket::{
     math::Lanes,
-    scene::{Scene, Structure, compile_as},
-    trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, intersect_stream, occluded, occluded_stream},
+    scene::{Scene, Structure, compile_with},
+    trace::{Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, intersect_stream, occluded, occluded_stream},
 };
 use wide::{f32x4, f32x8};
 
@@ -133,7 +133,7 @@ proptest! {
             })
             .collect();
         for structure in [Structure::None, Structure::Tree] {
-            let compiled = compile_as(&description, Some(structure)).expect("a sound scene");
+            let compiled = compile_with(&description, &structure.into()).expect("a sound scene");
             expect_same_in_a_stream::<f32>(&compiled, &batches, answered.min(batches.len()))?;
             expect_same_in_a_stream::<f32x8>(&compiled, &batches, answered.min(batches.len()))?;
         }
@@ -147,7 +147,7 @@ proptest! {
     fn broken_rays_change_nobody_elses_answer(items in items(), rays in rays()) {
         let description = scene(&items);
         for structure in [Structure::None, Structure::Tree] {
-            let compiled = compile_as(&description, Some(structure)).expect("a sound scene");
+            let compiled = compile_with(&description, &structure.into()).expect("a sound scene");
             expect_alone::<f32>(&compiled, &rays)?;
             expect_alone::<f32x4>(&compiled, &rays)?;
             expect_alone::<f32x8>(&compiled, &rays)?;

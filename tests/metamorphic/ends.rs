@@ -8,8 +8,8 @@ use raypacket::{
     math::Lanes,
     measure::verify::K,
     reference::Tracer,
-    scene::{Description, Scene, Structure, compile, compile_as},
-    trace::{Blocked, HitBatch, RayBatch, Scratch, intersect, occluded},
+    scene::{Description, Scene, Structure, compile, compile_with},
+    trace::{Blocked, Scratch, HitBatch, RayBatch, intersect, occluded},
 };
 use wide::{f32x4, f32x8};
 
@@ -75,7 +75,7 @@ fn expect_symmetric(
     ways.extend(short_and_long(&compile(&description).expect("a sound scene"), &ways));
     let back: Vec<_> = ways.iter().map(|&[from, to]| [to, from]).collect();
     for structure in [Structure::None, Structure::Tree] {
-        let compiled = compile_as(&description, Some(structure)).expect("a sound scene");
+        let compiled = compile_with(&description, &structure.into()).expect("a sound scene");
         let there = blocked::<f32x8>(&compiled, &ways);
         for answers in
             [blocked::<f32>(&compiled, &back), blocked::<f32x4>(&compiled, &back), blocked::<f32x8>(&compiled, &back)]

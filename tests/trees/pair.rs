@@ -3,8 +3,8 @@
 use glam::Vec3;
 use raypacket::bvh::Aabb;
 use raypacket::math::{BATCH, Lanes};
-use raypacket::scene::{Description, Scene, Structure, compile_as};
-use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
+use raypacket::scene::{Description, Scene, Structure, compile_with};
+use raypacket::trace::{Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use crate::common::empty;
@@ -48,7 +48,8 @@ impl Answers {
 
 impl Pair {
     pub fn new(description: Description) -> Self {
-        let compiled = |s| compile_as(&description, Some(s)).unwrap_or_else(|e| panic!("a sound scene: {e}"));
+        let compiled =
+            |s: Structure| compile_with(&description, &s.into()).unwrap_or_else(|e| panic!("a sound scene: {e}"));
         let [without, with] = [Structure::None, Structure::Tree].map(compiled);
         assert!(without.bvh.is_none() && with.bvh.is_some());
         let spheres = description.spheres.iter().map(|s| Aabb { min: s.center - s.radius, max: s.center + s.radius });
@@ -111,7 +112,7 @@ impl Pair {
         let mut alone = RayBatch::default();
         alone.push(origin, direction, t_min, t_max);
         let differ = |description: &Description| {
-            let compiled = |s| compile_as(description, Some(s)).expect("a part of a sound scene");
+            let compiled = |s: Structure| compile_with(description, &s.into()).expect("a part of a sound scene");
             let [without, with] = [Structure::None, Structure::Tree].map(compiled);
             let mut scratch = Scratch::default();
             let wanted = Answers::new::<f32x8>(&without, &alone, &mut scratch).of(0);

@@ -1,13 +1,13 @@
 //! Whole pictures with the tree and without it.
 
 use raypacket::render::{Camera, Film, Kernel, render};
-use raypacket::scene::{Description, Scene, Structure, compile_as};
+use raypacket::scene::{Description, Scene, Structure, compile_with};
 
 use crate::common::{all_builtins, film_bits};
 
 /// Compiles the scene with a structure, whatever its plan says.
 pub fn compiled(description: &Description, structure: Structure) -> Scene {
-    let scene = compile_as(description, Some(structure)).unwrap_or_else(|e| panic!("a sound scene: {e}"));
+    let scene = compile_with(description, &structure.into()).unwrap_or_else(|e| panic!("a sound scene: {e}"));
     assert_eq!(scene.bvh.is_some(), structure == Structure::Tree);
     scene
 }

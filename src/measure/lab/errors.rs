@@ -160,7 +160,7 @@ mod tests {
     use crate::measure::cases;
     use crate::measure::lab::batches;
     use crate::measure::oracle::shapes;
-    use crate::scene::compile_with;
+    use crate::scene::{CompileOptions, compile_with};
 
     #[test]
     fn ulps_of_known_values() {
@@ -195,7 +195,9 @@ mod tests {
         let case = cases::find("sphere-far").unwrap().make(10.0, 400, 1);
         // Not by the plan, which may take a method that errs where it is not seen.
         let stable = Choice::Sphere(SphereMethod::Stable);
-        let scene = compile_with(&case.description, None, &[stable]).unwrap();
+        let scene =
+            compile_with(&case.description, &CompileOptions { methods: vec![stable], ..CompileOptions::default() })
+                .unwrap();
         let shapes = shapes(&case.description);
         let truths = truth::of(&case.description, &case.rays);
         let right: Vec<_> =

@@ -5,7 +5,7 @@ use super::method::{Method, methods};
 use super::{Budget, batches, truth};
 use crate::measure::cases::{self, Generator, Ray, Subject};
 use crate::measure::oracle::shapes;
-use crate::scene::{Invalid, Structure, compile_with};
+use crate::scene::{CompileOptions, Invalid, Structure, compile_with};
 
 /// Poses of the primitive at every setting, so that no curve hangs on one.
 const POSES: usize = 4;
@@ -68,7 +68,10 @@ fn at(case: &Generator, dial: f64, rays: usize) -> Result<Vec<Errors>, Invalid> 
         let truths = truth::of(&made.description, &rays);
         let shapes = shapes(&made.description);
         for (method, samples) in methods(case.subject).iter().zip(&mut samples) {
-            let scene = compile_with(&made.description, Some(Structure::None), method.choices())?;
+            let scene = compile_with(
+                &made.description,
+                &CompileOptions { structure: Some(Structure::None), methods: method.choices().to_vec() },
+            )?;
             samples.push(Errors::sample(&scene, &shapes, &rays, &truths, &batches::trace(&scene, &rays)));
         }
     }

@@ -75,7 +75,7 @@ fn frames_of(name: &'static str, budget: &Budget, progress: &dyn Fn(f32)) -> Res
         render(scene, &camera, kernel, samples, film, &|_| ());
         started.elapsed().as_secs_f64() * 1e3
     };
-    let compiled = |choices: &[Choice]| compile_with(&description, None, choices).map_err(|e| e.to_string());
+    let compiled = |choices: &[Choice]| compile_with(&description, &choices.into()).map_err(|e| e.to_string());
     let mut converged = Film::new(width, height);
     let planned = compiled(&[])?;
     run(&planned, Kernel::default(), budget.converged, &mut converged);

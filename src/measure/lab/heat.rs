@@ -12,7 +12,7 @@ use crate::measure::oracle::{Truth, shapes};
 use crate::measure::random::Pcg;
 use crate::render::Camera;
 use crate::scene::{CameraDescription, Cuboid, Description, Invalid, Material, Scene, Sides, Sphere, Structure, Torus};
-use crate::scene::{compile_with, with_primitive};
+use crate::scene::{CompileOptions, compile_with, with_primitive};
 use crate::shade::Offsets;
 use crate::trace::Hit;
 
@@ -166,7 +166,7 @@ fn depths(
     rays: &[Ray],
     truths: &[Option<Truth>],
 ) -> Result<HeatMap, Invalid> {
-    let scene = compile_with(description, Some(Structure::None), &[choice])?;
+    let scene = compile_with(description, &CompileOptions { structure: Some(Structure::None), methods: vec![choice] })?;
     let answers = batches::trace(&scene, rays);
     let cell = |(truth, hit): (&Option<_>, &Option<Hit>)| match (truth, hit) {
         (None, None) => Cell::Miss,
@@ -181,14 +181,14 @@ fn depths(
 
 /// The share of rays that meet the convex thing that they leave, which is wrong whatever the ray.
 fn acne(description: &Description, method: OffsetMethod, rays: &[Ray]) -> Result<HeatMap, Invalid> {
-    let scene = compile_with(description, Some(Structure::None), &[])?;
+    let scene = compile_with(description, &Structure::None.into())?;
     // Each thing alone, as one may well shade the other.
     let alone = |spheres: bool| {
         let one = match spheres {
             true => Description { cuboids: vec![], ..description.clone() },
             false => Description { spheres: vec![], ..description.clone() },
         };
-        compile_with(&one, Some(Structure::None), &[])
+        compile_with(&one, &Structure::None.into())
     };
     let (ball, cuboid) = (alone(true)?, alone(false)?);
     let offsets = Offsets::of(&Methods { offset: method, ..Methods::default() });

@@ -14,7 +14,7 @@ use crate::measure::cases::{self, Ray, Subject};
 use crate::measure::oracle::{Shape, shapes};
 use crate::measure::random::Pcg;
 use crate::render::Kernel;
-use crate::scene::{Description, Invalid, Scene, Structure, compile_with};
+use crate::scene::{CompileOptions, Description, Invalid, Scene, Structure, compile_with};
 use crate::trace::Scratch;
 
 /// Batches that are timed, at the most: they stay in the second-level cache, as the rays of a tile do.
@@ -111,7 +111,12 @@ fn speed_of(description: &Description, subject: Subject, budget: &Budget) -> Res
     let truths = truth::of(description, &rays);
     let shapes = shapes(description);
     let methods = methods(subject);
-    let compiled = |method: &Method| compile_with(description, Some(Structure::None), method.choices());
+    let compiled = |method: &Method| {
+        compile_with(
+            description,
+            &CompileOptions { structure: Some(Structure::None), methods: method.choices().to_vec() },
+        )
+    };
     let scenes: Vec<Scene> = methods.iter().map(compiled).collect::<Result<_, _>>()?;
     let judge = |scene: &Scene| Errors::of(scene, &shapes, &rays, &truths, &batches::trace(scene, &rays));
     let errors: Vec<Errors> = scenes.iter().map(judge).collect();

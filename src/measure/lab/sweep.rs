@@ -14,7 +14,7 @@ use crate::math;
 use crate::measure::cases::Ray;
 use crate::measure::random::Pcg;
 use crate::scene::{Cuboid, Cylinder, Description, Invalid, Material, Mesh, Plane, Scene, Sides, Sphere, Structure};
-use crate::scene::{compile_as, with_primitive};
+use crate::scene::{compile_with, with_primitive};
 use crate::shade::Offsets;
 use crate::trace::Hit;
 
@@ -127,7 +127,7 @@ fn at_scale(scale: f64, offsets: &[Offset], spawned: usize) -> Result<Vec<[Count
     let share = spawned.div_ceil(2 * convex.len());
     let mut acne = vec![Count::default(); offsets.len()];
     for description in &convex {
-        let scene = compile_as(description, Some(Structure::None))?;
+        let scene = compile_with(description, &Structure::None.into())?;
         let departures = departures(&scene, center, scale, share, &mut rng);
         for (offset, count) in offsets.iter().zip(&mut acne) {
             count.add(&scene, &spawn(&departures, *offset), true);
@@ -136,7 +136,7 @@ fn at_scale(scale: f64, offsets: &[Offset], spawned: usize) -> Result<Vec<[Count
     let mut leaks = vec![Count::default(); offsets.len()];
     let share = spawned.div_ceil(2 * 2 * GAP_COUNT);
     for description in &convex[..2] {
-        let scene = compile_as(description, Some(Structure::None))?;
+        let scene = compile_with(description, &Structure::None.into())?;
         for k in 0..GAP_COUNT {
             let power = GAPS[0] + (GAPS[1] - GAPS[0]) * k as f64 / (GAP_COUNT - 1) as f64;
             let departures = departures(&scene, center, scale, share, &mut rng);
@@ -144,7 +144,7 @@ fn at_scale(scale: f64, offsets: &[Offset], spawned: usize) -> Result<Vec<[Count
             let (front, back): (Vec<Departure>, Vec<Departure>) = departures.into_iter().partition(|d| d.front);
             for (side, departures) in [(1.0, front), (-1.0, back)] {
                 let occluder = beyond(description, 10f64.powf(power) * scale * side);
-                let occluder = compile_as(&occluder, Some(Structure::None))?;
+                let occluder = compile_with(&occluder, &Structure::None.into())?;
                 for (offset, count) in offsets.iter().zip(&mut leaks) {
                     count.add(&occluder, &spawn(&departures, *offset), false);
                 }

@@ -22,6 +22,8 @@ use super::Description;
 pub(super) use assets::Assets;
 pub use image::{MAX_IMAGE_BYTES, MAX_IMAGE_PIXELS, MAX_IMAGE_SIDE};
 pub(super) use obj::alone as read_obj;
+pub(super) use strict::Exactly;
+pub(super) use toml::{Array, Element, Elements, Fault, Reader, Triple};
 
 /// The largest scene file that is read.
 ///

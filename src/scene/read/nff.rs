@@ -27,7 +27,7 @@ use self::tokens::Tokens;
 use super::{MAX_NFF_BYTES, Progress, ReadError, open, polygon};
 use crate::scene::{
     CameraDescription, Cone, Cylinder, Description, Invalid, Light, Material, Mesh, Pigment, Settings, Sides, Sky,
-    Sphere, check,
+    Sphere, check, rules,
 };
 
 /// The number of segments of a path, by the format's convention.
@@ -129,12 +129,12 @@ impl<'a, R: BufRead> Reader<'a, R> {
         while let Some(word @ ("from" | "at" | "up" | "angle" | "hither" | "resolution")) = self.tokens.word()? {
             self.tokens.take();
             match word {
-                "from" => from = Some(self.vector(word, check::point)?),
-                "at" => at = Some(self.vector(word, check::point)?),
-                "up" => up = Some(self.vector(word, check::direction)?),
+                "from" => from = Some(self.vector(word, rules::point)?),
+                "at" => at = Some(self.vector(word, rules::point)?),
+                "up" => up = Some(self.vector(word, rules::direction)?),
                 "angle" => {
                     let [degrees] = self.tokens.numbers(word)?;
-                    self.tokens.sound(word, check::fov(degrees))?;
+                    self.tokens.sound(word, rules::fov(degrees))?;
                     angle = Some(degrees);
                 }
                 "hither" => drop(self.tokens.numbers::<1>(word)?),
@@ -157,7 +157,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
 
     fn background(&mut self) -> Result<(), ReadError> {
         let line = self.tokens.line();
-        let color = self.vector("b", check::color)?;
+        let color = self.vector("b", rules::color)?;
         match self.sky.replace(color) {
             Some(_) => Err(self.tokens.fault(line, "b", "there is a background already")),
             None => Ok(()),
@@ -165,8 +165,8 @@ impl<'a, R: BufRead> Reader<'a, R> {
     }
 
     fn light(&mut self) -> Result<(), ReadError> {
-        let position = self.vector("l", check::point)?;
-        let color = if self.tokens.is_number()? { Some(self.vector("l", check::color)?) } else { None };
+        let position = self.vector("l", rules::point)?;
+        let color = if self.tokens.is_number()? { Some(self.vector("l", rules::color)?) } else { None };
         self.lights.push((position, color));
         Ok(())
     }
@@ -178,20 +178,20 @@ impl<'a, R: BufRead> Reader<'a, R> {
     }
 
     fn sphere(&mut self) -> Result<(), ReadError> {
-        let center = self.vector("s", check::point)?;
+        let center = self.vector("s", rules::point)?;
         let [radius] = self.tokens.numbers("s")?;
         let sides = self.materials.sides(radius < 0.0);
         let radius = radius.abs();
-        self.tokens.sound("s", check::length(radius).map_err(|problem| format!("the radius {problem}")))?;
+        self.tokens.sound("s", rules::length(radius).map_err(|problem| format!("the radius {problem}")))?;
         self.spheres.push(Sphere { center, radius, sides, material: self.materials.worn() });
         Ok(())
     }
 
     fn cone(&mut self) -> Result<(), ReadError> {
-        let base = self.vector("c", check::place)?;
+        let base = self.vector("c", rules::place)?;
         let [base_radius] = self.end()?;
-        let apex = self.vector("c", check::place)?;
-        self.tokens.sound("c", check::axis(base, apex).map_err(|problem| format!("the apex {problem}")))?;
+        let apex = self.vector("c", rules::place)?;
+        self.tokens.sound("c", rules::axis(base, apex).map_err(|problem| format!("the apex {problem}")))?;
         let [apex_radius] = self.end()?;
         self.tokens.sound(
             "c",
@@ -215,7 +215,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
     /// A radius at the end of a cone.
     fn end(&mut self) -> Result<[f32; 1], ReadError> {
         let radius = self.tokens.numbers("c")?;
-        self.tokens.sound("c", check::end_radius(radius[0].abs()).map_err(|problem| format!("a radius {problem}")))?;
+        self.tokens.sound("c", rules::end_radius(radius[0].abs()).map_err(|problem| format!("a radius {problem}")))?;
         Ok(radius)
     }
 
@@ -250,10 +250,10 @@ impl<'a, R: BufRead> Reader<'a, R> {
             }
             let [x, y, z, nx, ny, nz] = numbers;
             mesh.positions.push(Vec3::new(x, y, z));
-            self.tokens.sound(key, check::vertex(Vec3::new(x, y, z)))?;
+            self.tokens.sound(key, rules::vertex(Vec3::new(x, y, z)))?;
             if smooth {
                 let normal = Vec3::new(nx, ny, nz);
-                self.tokens.sound(key, check::direction(normal).map_err(|problem| format!("a normal {problem}")))?;
+                self.tokens.sound(key, rules::direction(normal).map_err(|problem| format!("a normal {problem}")))?;
                 mesh.normals.push(normal);
             }
         }
@@ -358,7 +358,7 @@ impl Materials {
 }
 
 fn material([r, g, b, kd, ks, shine, t, ior]: [f32; 8], name: String) -> Result<Material, String> {
-    check::color(Vec3::new(r, g, b)).map_err(|problem| format!("r g b {problem}"))?;
+    rules::color(Vec3::new(r, g, b)).map_err(|problem| format!("r g b {problem}"))?;
     if !(shine >= 0.0 && shine.is_finite()) {
         return Err(format!("Shine must be finite and 0 or more, got {shine}"));
     }

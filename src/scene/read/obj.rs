@@ -23,7 +23,7 @@ use self::{
     mtl::Library,
 };
 use super::{MAX_OBJ_BYTES, Progress, ReadError, assets::Assets, image::Images, lines::Lines, polygon};
-use crate::scene::{Material, Mesh, check};
+use crate::scene::{Material, Mesh, rules};
 
 /// The most triangles of all mesh files together. A polygon may make one of every two bytes.
 const MAX_TRIANGLES: usize = 1 << 25;
@@ -44,7 +44,7 @@ impl Default for Budget {
 }
 
 /// What a file holds.
-pub(super) struct Model {
+pub(in crate::scene) struct Model {
     /// Its `materials` are indices into those below; the number of them stands for no material.
     pub mesh: Mesh,
     /// The materials that faces have.
@@ -369,7 +369,7 @@ fn position<'w>(words: impl Iterator<Item = &'w str>) -> Result<Vec3, String> {
         ([x, y, z, w], 4) => Vec3::new(x, y, z) / w,
         (_, count) => return Err(format!("expected 3 numbers, got {count}")),
     };
-    check::vertex(position)?;
+    rules::vertex(position)?;
     Ok(position)
 }
 

@@ -6,7 +6,7 @@ use std::{fmt::Write, ops::Range};
 
 use toml::de::{DeTable, DeValue};
 
-use crate::scene::check::key_part;
+use crate::scene::rules::key_part;
 
 /// The line, from 1, that holds the byte at `offset`.
 pub(super) fn line_at(text: &[u8], offset: usize) -> usize {

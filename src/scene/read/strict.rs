@@ -31,7 +31,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
 
 /// An array of exactly `N`. (Left alone, a TOML array that is too long is read as far as it is asked for.)
 #[derive(Clone, Copy)]
-pub(super) struct Exactly<T, const N: usize>(pub(super) [T; N]);
+pub(crate) struct Exactly<T, const N: usize>(pub [T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

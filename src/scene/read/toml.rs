@@ -1,24 +1,18 @@
 //! The scene file format: TOML to [`Description`].
 
+mod elements;
+mod file;
 mod materials;
-mod mesh;
-mod primitives;
 mod view;
 
-use std::{collections::BTreeMap, path::Path};
+use std::path::Path;
 
 use glam::Vec3;
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
-use self::{
-    materials::{MaterialFile, Names},
-    mesh::MeshFile,
-    primitives::{
-        BoxFile, ConeFile, CylinderFile, FractalFile, PlaneFile, QuadFile, SphereFile, TorusFile, TriangleFile,
-    },
-    view::{CameraFile, LightFile, SettingsFile, SkyFile},
-};
+pub(crate) use self::elements::{Array, Element, Elements, Fault, Reader};
+use self::{file::SceneFile, materials::Names};
 use super::{
     Progress, ReadError,
     assets::Assets,
@@ -32,7 +26,8 @@ use crate::scene::{Description, Invalid, check};
 /// A table takes about 1500 bytes of memory, and two bytes are enough to make one: `a.a.a`.
 const MAX_TABLES: usize = 1 << 20;
 
-type Triple = Exactly<f32, 3>;
+/// A vector or colour.
+pub(crate) type Triple = Exactly<f32, 3>;
 
 impl From<Triple> for Vec3 {
     fn from(triple: Triple) -> Self {
@@ -44,26 +39,6 @@ impl From<Vec3> for Triple {
     fn from(v: Vec3) -> Self {
         Exactly(v.into())
     }
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct SceneFile {
-    camera: Table<CameraFile>,
-    settings: Table<SettingsFile>,
-    sky: Table<SkyFile>,
-    light: Vec<Table<LightFile>>,
-    materials: BTreeMap<String, Table<MaterialFile>>,
-    plane: Vec<Table<PlaneFile>>,
-    sphere: Vec<Table<SphereFile>>,
-    triangle: Vec<Table<TriangleFile>>,
-    quad: Vec<Table<QuadFile>>,
-    r#box: Vec<Table<BoxFile>>,
-    cylinder: Vec<Table<CylinderFile>>,
-    cone: Vec<Table<ConeFile>>,
-    torus: Vec<Table<TorusFile>>,
-    fractal: Vec<Table<FractalFile>>,
-    mesh: Vec<Table<MeshFile>>,
 }
 
 pub(super) fn parse(
@@ -131,7 +106,7 @@ fn shape(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
 
 fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<'_>) -> Result<Description, Invalid> {
     let mut images = Images::new(assets);
-    let mut names = Names::new(scene.materials, &mut images)?;
+    let names = Names::new(scene.materials, &mut images)?;
     let mut description = Description {
         name,
         camera: scene.camera.0.describe(),
@@ -140,37 +115,11 @@ fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<
         lights: scene.light.into_iter().map(|Table(light)| light.describe()).collect(),
         ..Description::default()
     };
-    // In this order the materials that the file does not define get their numbers.
-    description.planes = each("plane", scene.plane, |p| p.describe(&mut names))?;
-    description.spheres = each("sphere", scene.sphere, |s| s.describe(&mut names))?;
-    let mut budget = obj::Budget::default();
-    description.meshes =
-        each("mesh", scene.mesh, |m| m.describe(assets, &mut names, &mut images, &mut budget, progress))?;
-    description.meshes.extend(each("triangle", scene.triangle, |t| t.describe(&mut names))?);
-    description.quads = each("quad", scene.quad, |q| q.describe(&mut names))?;
-    description.cuboids = each("box", scene.r#box, |b| b.describe(&mut names))?;
-    description.cylinders = each("cylinder", scene.cylinder, |c| c.describe(&mut names))?;
-    description.cones = each("cone", scene.cone, |c| c.describe(&mut names))?;
-    description.tori = each("torus", scene.torus, |t| t.describe(&mut names))?;
-    description.fractals = each("fractal", scene.fractal, |f| f.describe(&mut names))?;
-    description.materials = names.materials;
-    description.textures = images.textures;
+    let mut reader = Reader { names, images, assets, budget: obj::Budget::default(), progress };
+    scene.primitives.describe(&mut reader, &mut description)?;
+    description.materials = reader.names.materials;
+    description.textures = reader.images.textures;
     Ok(description)
-}
-
-/// What is wrong with a key of an element.
-struct Fault(&'static str, String);
-
-/// Turns the elements of the array `name` into primitives.
-fn each<F, P>(
-    name: &str,
-    elements: Vec<Table<F>>,
-    mut primitive: impl FnMut(F) -> Result<P, Fault>,
-) -> Result<Vec<P>, Invalid> {
-    let one = |(i, Table(element))| {
-        primitive(element).map_err(|Fault(key, problem)| Invalid { key: format!("{name}[{i}].{key}"), problem })
-    };
-    elements.into_iter().enumerate().map(one).collect()
 }
 
 #[cfg(test)]

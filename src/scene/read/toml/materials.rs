@@ -7,11 +7,12 @@ use serde::Deserialize;
 
 use super::{Fault, Triple};
 use crate::scene::{
-    Invalid, Material, Pigment, check,
+    Invalid, Material, Pigment,
     read::{
         image::Images,
         strict::{Exactly, Table},
     },
+    rules,
 };
 
 /// The material of a primitive that names none, unless the file defines one of this name.
@@ -60,7 +61,7 @@ struct CheckerFile {
 fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Images<'_>) -> Result<Material, Invalid> {
     let MaterialFile { color, checker, texture, texture_size, reflectance, transmission, .. } = file;
     let invalid =
-        |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", check::key_part(&name)), problem };
+        |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", rules::key_part(&name)), problem };
     if usize::from(color.is_some()) + usize::from(checker.is_some()) + usize::from(texture.is_some()) > 1 {
         let key = if checker.is_some() { "checker" } else { "texture" };
         return Err(invalid(key, "only one of color, checker and texture".into()));

@@ -1,0 +1,77 @@
+//! Parallelograms.
+
+use glam::Vec3;
+use serde::Deserialize;
+
+use super::{Kind, KindName, triangle_near};
+use crate::bvh::Aabb;
+use crate::geometry::Quads;
+use crate::scene::Invalid;
+use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::rules::{At, area, place};
+
+/// The parallelogram of the points corner + a u + b v, a and b from 0 to 1; seen from both sides. The front is where
+/// u × v points.
+///
+/// (u, v) = (a, b). Checker coordinates are (p·T, p·B) with the axes of [`crate::geometry::frame`] of u × v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quad {
+    /// One corner.
+    pub corner: Vec3,
+    /// From there to the next.
+    pub u: Vec3,
+    /// And to the other; not parallel to `u`.
+    pub v: Vec3,
+    /// Index into [`Description::materials`](crate::scene::Description::materials).
+    pub material: usize,
+}
+
+/// Its table.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct QuadFile {
+    corner: Triple,
+    u: Triple,
+    v: Triple,
+    material: Option<String>,
+}
+
+impl Element for QuadFile {
+    type Kind = Quad;
+
+    fn describe(self, reader: &mut Reader<'_>) -> Result<Quad, Fault> {
+        let material = reader.material(self.material)?;
+        Ok(Quad { corner: self.corner.into(), u: self.u.into(), v: self.v.into(), material })
+    }
+}
+
+impl Kind for Quad {
+    const NAME: KindName =
+        KindName { one: "quad", many: "quads", method: "method `moller_trumbore`, as nothing shares their edges" };
+    type Elements = Array<QuadFile>;
+    type Storage = Quads;
+
+    fn check(&self, at: &At) -> Result<(), Invalid> {
+        for (v, name) in [(self.corner, "corner"), (self.u, "u"), (self.v, "v")] {
+            at.rule(name, place(v))?;
+        }
+        at.rule("v", area(self.u, self.v))?;
+        at.material(self.material)
+    }
+    fn materials(&self, wear: &mut impl FnMut(usize)) {
+        wear(self.material);
+    }
+    /// Both its triangles.
+    fn near(&self, near: &impl Fn(Vec3, f64) -> bool) -> bool {
+        let Self { corner, u, v, .. } = *self;
+        triangle_near(corner, u, v, near) && triangle_near(corner + u + v, -u, -v, near)
+    }
+
+    fn store(&self, to: &mut Quads) {
+        to.push(self.corner, self.u, self.v, self.material as u32);
+    }
+    fn bounds(of: &Quads, i: usize) -> Option<Aabb> {
+        let [min, max] = of.bounds(i);
+        Some(Aabb { min, max })
+    }
+}

@@ -1,0 +1,134 @@
+//! The arrays of primitives: elements of the scene file, and how they become the description's.
+
+use serde::de::{DeserializeOwned, MapAccess};
+
+use super::materials::Names;
+use crate::kinds::for_each_kind;
+use crate::scene::kinds::Kind;
+use crate::scene::read::{Progress, assets::Assets, image::Images, obj, strict::Table};
+use crate::scene::{Description, Invalid, Material};
+
+/// What is wrong with a key of an element.
+pub(crate) struct Fault(pub &'static str, pub String);
+
+/// The table of one element of an array of primitives.
+pub(crate) trait Element: DeserializeOwned {
+    /// What it becomes.
+    type Kind: Kind;
+    /// The key of its array.
+    const KEY: &'static str = <Self::Kind as Kind>::KEY;
+
+    /// Makes it that.
+    fn describe(self, reader: &mut Reader<'_>) -> Result<Self::Kind, Fault>;
+}
+
+/// One array of the scene file, or several one after the other, that become primitives of one kind.
+pub(crate) trait Elements: Default {
+    /// What they become.
+    type Kind: Kind;
+
+    /// Their keys.
+    fn keys() -> Vec<&'static str>;
+    /// Takes the value of a key, if it is one of theirs.
+    fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error>;
+    /// Makes them that, in the order that materials which the file does not define get their numbers in.
+    fn describe(self, reader: &mut Reader<'_>) -> Result<Vec<Self::Kind>, Invalid>;
+}
+
+/// An array of tables.
+pub(crate) struct Array<E>(Vec<Table<E>>);
+
+impl<E> Default for Array<E> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<E: Element> Elements for Array<E> {
+    type Kind = E::Kind;
+
+    fn keys() -> Vec<&'static str> {
+        vec![E::KEY]
+    }
+    fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
+        if key == E::KEY {
+            self.0 = map.next_value()?;
+        }
+        Ok(key == E::KEY)
+    }
+    fn describe(self, reader: &mut Reader<'_>) -> Result<Vec<E::Kind>, Invalid> {
+        let one = |(i, Table(element)): (usize, Table<E>)| {
+            let invalid = |Fault(key, problem)| Invalid { key: format!("{}[{i}].{key}", E::KEY), problem };
+            element.describe(reader).map_err(invalid)
+        };
+        self.0.into_iter().enumerate().map(one).collect()
+    }
+}
+
+impl<A: Elements, B: Elements<Kind = A::Kind>> Elements for (A, B) {
+    type Kind = A::Kind;
+
+    fn keys() -> Vec<&'static str> {
+        [A::keys(), B::keys()].concat()
+    }
+    fn take<'de, M: MapAccess<'de>>(&mut self, key: &str, map: &mut M) -> Result<bool, M::Error> {
+        Ok(self.0.take(key, map)? || self.1.take(key, map)?)
+    }
+    fn describe(self, reader: &mut Reader<'_>) -> Result<Vec<A::Kind>, Invalid> {
+        let mut all = self.0.describe(reader)?;
+        all.extend(self.1.describe(reader)?);
+        Ok(all)
+    }
+}
+
+/// What elements refer to: materials and files.
+pub(crate) struct Reader<'a> {
+    pub(super) names: Names,
+    pub(super) images: Images<'a>,
+    pub(super) assets: &'a Assets,
+    pub(super) budget: obj::Budget,
+    pub(super) progress: Progress<'a>,
+}
+
+impl Reader<'_> {
+    /// The material of a name, or the default.
+    pub(in crate::scene) fn material(&mut self, name: Option<String>) -> Result<usize, Fault> {
+        self.names.find(name)
+    }
+
+    /// Adds the material of a mesh file; a name that is taken gets a number.
+    pub(in crate::scene) fn add(&mut self, material: Material) -> usize {
+        self.names.add(material)
+    }
+
+    /// A mesh file, with its materials or without.
+    pub(in crate::scene) fn model(&mut self, file: &str, materials: bool) -> Result<obj::Model, String> {
+        let images = materials.then_some(&mut self.images);
+        obj::read(self.assets, file, images, &mut self.budget, self.progress).map_err(|error| error.to_string())
+    }
+}
+
+/// All arrays of primitives, from the list of kinds.
+macro_rules! primitives {
+    ($($group:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
+        /// The primitives of a scene file.
+        #[derive(Default)]
+        pub(super) struct Primitives {
+            $($($field: <crate::scene::$Kind as Kind>::Elements,)*)*
+        }
+
+        impl Primitives {
+            /// Takes the value of a key, if it is one of theirs.
+            pub(super) fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
+                Ok(false $($(|| self.$field.take(key, map)?)*)*)
+            }
+
+            /// Puts them into the description.
+            pub(super) fn describe(self, reader: &mut Reader<'_>, into: &mut Description) -> Result<(), Invalid> {
+                $($(into.$field = self.$field.describe(reader)?;)*)*
+                Ok(())
+            }
+        }
+    };
+}
+for_each_kind! { primitives }
