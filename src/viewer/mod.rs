@@ -18,12 +18,13 @@ mod draw;
 mod frame;
 mod input;
 mod map;
+mod outline;
 mod overlay;
 mod screenshot;
+mod section;
 mod session;
 mod slice;
 mod text;
-mod turned;
 mod window;
 
 use crate::files::FileError;
