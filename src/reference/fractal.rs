@@ -1,6 +1,6 @@
 //! Menger sponges.
-use super::{Primitive, Primitives};
 use super::cuboid::face_uv;
+use super::{Primitive, Primitives};
 use crate::scene;
 use glam::{DVec2, DVec3, IVec3};
 
