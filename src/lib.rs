@@ -39,8 +39,9 @@
 //!
 //! # The house
 //!
-//! Imports run downward in this list; nothing imports from above itself. [`reference`](mod@reference) alone stands
-//! apart: it may import the [`scene::Description`] and what that holds, and nothing else.
+//! Imports run downward in this list, and within a folder never in a circle; `tests/house.rs` sees to it.
+//! [`reference`](mod@reference) alone stands apart: it may import the [`scene::Description`], what that holds and the list
+//! of the kinds, and nothing else.
 //!
 //! - [`viewer`]: the window: 3D view, 2D slice, controls, overlay
 //! - [`measure`]: rays a second, and how right they are; the hard cases, the laboratory and its charts

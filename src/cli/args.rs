@@ -1,6 +1,6 @@
 //! Values that several commands take.
 
-use super::Failure;
+use super::failure::Failure;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use raypacket::files::Target;
 use raypacket::geometry::methods::Choice;

@@ -1,7 +1,8 @@
 //! `raypacket bench`: rays a second.
 
 use super::args::{DEFAULT_SCENE, Json, Methods, Size, Threads};
-use super::{Failure, input, print};
+use super::failure::Failure;
+use super::{input, print};
 use raypacket::geometry::methods::{Choice, SphereMethod};
 use raypacket::measure::bench;
 use std::ffi::OsString;

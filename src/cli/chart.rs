@@ -1,8 +1,9 @@
 //! `raypacket chart`: what the accuracy laboratory measures, as pictures with their data.
 
 use super::args::Threads;
+use super::failure::Failure;
+use super::print;
 use super::progress::Progress;
-use super::{Failure, print};
 use raypacket::files::Target;
 use raypacket::measure::chart;
 use raypacket::measure::lab::{Budget, Machine};

@@ -1,6 +1,6 @@
 //! Scenes by name or path.
 
-use super::Failure;
+use super::failure::Failure;
 use super::progress::{Progress, Spinner};
 use raypacket::geometry::methods::Choice;
 use raypacket::scene::{self, Description, Scene};

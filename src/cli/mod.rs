@@ -7,6 +7,7 @@
 mod args;
 mod bench;
 mod chart;
+mod failure;
 mod info;
 mod input;
 mod plan;
@@ -18,7 +19,7 @@ mod verify;
 mod view;
 
 use clap::{Parser, Subcommand};
-use std::io::Write;
+use failure::Failure;
 use std::process::ExitCode;
 
 /// A CPU ray tracer that traces SIMD packets and checks its answers against a scalar reference
@@ -50,24 +51,6 @@ enum Command {
     Scenes,
 }
 
-/// Why a command ends early: the exit status and one line.
-pub struct Failure {
-    status: u8,
-    message: String,
-}
-
-impl Failure {
-    /// The user's input is at fault: status 2.
-    fn input(message: impl ToString) -> Self {
-        Self { status: 2, message: message.to_string() }
-    }
-
-    /// The input is fine, but it could not be done: status 1.
-    fn runtime(message: impl ToString) -> Self {
-        Self { status: 1, message: message.to_string() }
-    }
-}
-
 /// Parses the arguments and does what they say. Wrong usage ends the program here with status 2.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
@@ -82,16 +65,8 @@ pub fn run() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => fail(failure.status, &failure.message),
+        Err(failure) => failure.report(),
     }
-}
-
-/// Prints `raypacket: message` on standard error, always as one line, and gives the status back.
-fn fail(status: u8, message: &str) -> ExitCode {
-    let line = message.lines().map(str::trim).filter(|l| !l.is_empty()).collect::<Vec<_>>().join("; ");
-    // Should standard error be closed, then nobody wants to know.
-    let _ = writeln!(std::io::stderr(), "raypacket: {line}");
-    ExitCode::from(status)
 }
 
 #[cfg(test)]

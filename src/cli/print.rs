@@ -1,7 +1,7 @@
 //! Standard output, which may be a pipe that nobody reads any more.
 
-use super::Failure;
 use super::args::Json;
+use super::failure::Failure;
 use serde::Serialize;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};

@@ -1,8 +1,9 @@
 //! `raypacket render`: a picture into a file.
 
 use super::args::{DEFAULT_SCENE, Methods, Size, Threads, count};
+use super::failure::Failure;
 use super::progress::Progress;
-use super::{Failure, input, print};
+use super::{input, print};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use raypacket::files::Target;
 use raypacket::reference;

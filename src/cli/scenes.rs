@@ -1,6 +1,7 @@
 //! `raypacket scenes`: the built-in scenes.
 
-use super::{Failure, print};
+use super::failure::Failure;
+use super::print;
 use raypacket::scene;
 
 pub fn run() -> Result<(), Failure> {

@@ -1,7 +1,8 @@
 //! `raypacket verify`: every kernel against the reference.
 
 use super::args::{Json, Methods, Size};
-use super::{Failure, input, print};
+use super::failure::Failure;
+use super::{input, print};
 use raypacket::measure::verify;
 use raypacket::render::Kernel;
 use raypacket::scene;

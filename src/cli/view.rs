@@ -1,7 +1,8 @@
 //! `raypacket view`, and `raypacket` alone.
 
 use super::args::{DEFAULT_SCENE, Size, Threads, kernel};
-use super::{Failure, input};
+use super::failure::Failure;
+use super::input;
 use raypacket::files::Target;
 use raypacket::render::Kernel;
 use raypacket::render::output::Format;

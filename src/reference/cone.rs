@@ -1,5 +1,5 @@
 //! Cones and frusta about any axis, open or closed.
-use super::{Primitive, axes, turn};
+use super::{Primitive, Primitives, axes, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 
@@ -107,6 +107,12 @@ impl Cone {
         }
         let this_side = r0 + self.slope() * q.z >= 0.0;
         this_side && (r0..=r1).contains(&q.truncate().length())
+    }
+}
+
+impl Primitives for scene::Cone {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Cone::new(self)));
     }
 }
 

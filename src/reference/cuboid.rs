@@ -1,5 +1,5 @@
 //! Boxes, aligned to the axes or turned.
-use super::Primitive;
+use super::{Primitive, Primitives};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -64,6 +64,12 @@ fn sin_cos(degrees: f32) -> (f64, f64) {
         180.0 => (0.0, -1.0),
         270.0 => (-1.0, 0.0),
         _ => turn.to_radians().sin_cos(),
+    }
+}
+
+impl Primitives for scene::Cuboid {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Cuboid::new(self)));
     }
 }
 

@@ -1,5 +1,5 @@
 //! Cylinders about any axis, open or closed.
-use super::{Primitive, axes, turn};
+use super::{Primitive, Primitives, axes, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 
@@ -74,6 +74,12 @@ impl Cylinder {
         // A tangent at the origin has both roots there.
         let other = if q == 0.0 { 0.0 } else { c / q };
         Some([q.min(other) / across, q.max(other) / across])
+    }
+}
+
+impl Primitives for scene::Cylinder {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Cylinder::new(self)));
     }
 }
 

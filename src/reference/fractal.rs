@@ -1,6 +1,6 @@
 //! Menger sponges.
-use super::Primitive;
 use super::cuboid::face_uv;
+use super::{Primitive, Primitives};
 use crate::scene;
 use glam::{DVec2, DVec3, IVec3};
 
@@ -127,6 +127,12 @@ impl Fractal {
             }
         }
         nearest.1
+    }
+}
+
+impl Primitives for scene::Fractal {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Fractal::new(self)));
     }
 }
 

@@ -1,7 +1,7 @@
 //! The scalar `f64` reference tracer: slow, plain, and the measure of everything else.
 //!
-//! It proves the packet tracer's answers, so it shares nothing with it but the [`Description`]: one ray at a
-//! time, a list of primitives, textbook formulae, no acceleration structure, recursion for mirrors. A
+//! It proves the packet tracer's answers, so it shares nothing with it but the [`Description`] and the list of its kinds'
+//! names: one ray at a time, a list of primitives, textbook formulae, no acceleration structure, recursion for mirrors. A
 //! fault in a packet kernel cannot hide in its own check.
 //!
 //! - [`Tracer`]: nearest hit ([`Tracer::intersect`]), any hit ([`Tracer::blocked`]) and Whitted shading
@@ -10,6 +10,7 @@
 //! - [`render`] and [`hits`]: whole pictures, in the caller's rayon pool.
 //!
 //! All vectors are `f64`; directions have unit length, lengths are in world units, colours are linear RGB.
+use crate::kinds::for_each_kind;
 use crate::scene::{Description, Light, Material, Settings, Sky, Texture};
 use glam::{DVec2, DVec3};
 use std::fmt::Debug;
@@ -66,6 +67,12 @@ trait Primitive: Debug + Send + Sync {
     fn checker(&self, point: DVec3) -> DVec3;
 }
 
+/// What a scene describes: a primitive, or a mesh of them.
+trait Primitives {
+    /// Adds what is to be traced, in the order of ids.
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>);
+}
+
 /// A scene to trace, one ray at a time.
 #[derive(Debug)]
 pub struct Tracer {
@@ -87,17 +94,12 @@ impl Tracer {
     /// When a mesh names a vertex that does not exist ([`crate::scene::check`] finds that).
     pub fn new(scene: &Description) -> Self {
         let mut primitives: Vec<Box<dyn Primitive>> = Vec::new();
-        scene.planes.iter().for_each(|p| primitives.push(Box::new(plane::Plane::new(p))));
-        scene.spheres.iter().for_each(|s| primitives.push(Box::new(sphere::Sphere::new(s))));
-        for mesh in &scene.meshes {
-            (0..mesh.triangles.len()).for_each(|i| primitives.push(Box::new(triangle::Triangle::new(mesh, i))));
+        macro_rules! add_all {
+            ($($bounds:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
+                $($(scene.$field.iter().for_each(|it| it.add(&mut primitives));)*)*
+            };
         }
-        scene.quads.iter().for_each(|q| primitives.push(Box::new(quad::Quad::new(q))));
-        scene.cuboids.iter().for_each(|c| primitives.push(Box::new(cuboid::Cuboid::new(c))));
-        scene.cylinders.iter().for_each(|c| primitives.push(Box::new(cylinder::Cylinder::new(c))));
-        scene.cones.iter().for_each(|c| primitives.push(Box::new(cone::Cone::new(c))));
-        scene.tori.iter().for_each(|t| primitives.push(Box::new(torus::Torus::new(t))));
-        scene.fractals.iter().for_each(|f| primitives.push(Box::new(fractal::Fractal::new(f))));
+        for_each_kind!(add_all);
         let transmits = |m: usize| scene.materials.get(m).is_some_and(|m| m.transmission > 0.0);
         Self {
             refracts: primitives.iter().any(|p| transmits(p.material())),

@@ -1,5 +1,5 @@
 //! The plane p·n + D = 0, seen from both sides.
-use super::{Primitive, axes};
+use super::{Primitive, Primitives, axes};
 use crate::scene;
 use glam::{DVec2, DVec3};
 
@@ -20,6 +20,12 @@ impl Plane {
 
     fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point) + self.offset
+    }
+}
+
+impl Primitives for scene::Plane {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Plane::new(self)));
     }
 }
 

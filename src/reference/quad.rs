@@ -1,5 +1,5 @@
 //! Parallelograms.
-use super::{Primitive, axes};
+use super::{Primitive, Primitives, axes};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -25,6 +25,12 @@ impl Quad {
             size: u.length().max(v.length()),
             material: quad.material,
         }
+    }
+}
+
+impl Primitives for scene::Quad {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Quad::new(self)));
     }
 }
 

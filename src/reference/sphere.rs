@@ -1,5 +1,5 @@
 //! The sphere |p − c| = r.
-use super::{Primitive, turn};
+use super::{Primitive, Primitives, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -20,6 +20,12 @@ impl Sphere {
             sides: sphere.sides,
             material: sphere.material,
         }
+    }
+}
+
+impl Primitives for scene::Sphere {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Sphere::new(self)));
     }
 }
 

@@ -1,5 +1,5 @@
 //! Tori, in units of the major radius about the centre, along their own axes.
-use super::{Primitive, axes, turn};
+use super::{Primitive, Primitives, axes, turn};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -39,6 +39,12 @@ impl Torus {
         let outward = (q - middle).try_normalize().unwrap_or(DVec3::Z);
         let to_world = self.to_local.transpose();
         (self.center + to_world * middle, to_world * outward)
+    }
+}
+
+impl Primitives for scene::Torus {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Torus::new(self)));
     }
 }
 

@@ -1,5 +1,5 @@
 //! Triangles.
-use super::{Primitive, axes};
+use super::{Primitive, Primitives, axes};
 use crate::scene::{Mesh, Sides};
 use glam::{DVec2, DVec3};
 
@@ -36,6 +36,12 @@ impl Triangle {
         let [a, b, c] = self.corners.map(|corner| corner - point);
         let areas = [b.cross(c), c.cross(a), a.cross(b)].map(|n| n.dot(self.normal));
         areas.map(|area| area / areas.iter().sum::<f64>())
+    }
+}
+
+impl Primitives for Mesh {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        (0..self.triangles.len()).for_each(|i| to.push(Box::new(Triangle::new(self, i))));
     }
 }
 

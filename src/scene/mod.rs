@@ -3,6 +3,7 @@ mod builtin;
 mod check;
 mod choose;
 mod compile;
+mod corners;
 mod description;
 mod in_tree;
 mod kinds;

@@ -1,7 +1,7 @@
 use super::*;
-use crate::scene::{Cone, Cylinder, Mesh, Sides, Torus};
-use glam::Vec3;
-use std::f64::consts::{PI, TAU};
+use crate::scene::{Cone, Cuboid, Cylinder, Fractal, Mesh, Plane, Quad, Sides, Sphere, Torus};
+use glam::{DVec2, DVec3, Vec3, Vec3Swizzles};
+use std::f64::consts::TAU;
 
 /// All of the test's bodies, in pixels of a pane of 2000².
 const SEEN: Section = Section { y: 0.0, center: DVec2::ZERO, radius: 15.0, pixel: 0.01 };
@@ -131,36 +131,27 @@ fn check_outline(description: &Description, section: &Section, distance: impl Fn
 
 #[test]
 fn spheres_give_circles() {
-    let sphere =
-        |y: f32, radius: f32| Sphere { center: Vec3::new(2.0, y, 3.0), radius, sides: Sides::Both, material: 0 };
+    let cut = |y: f32, radius: f32| {
+        let sphere = Sphere { center: Vec3::new(2.0, y, 3.0), radius, sides: Sides::Both, material: 0 };
+        all(&Description { spheres: vec![sphere], ..Description::default() }, &Section { y: 1.0, ..SEEN })
+    };
     let center = DVec2::new(2.0, 3.0);
-    assert_eq!(sphere_cut(&sphere(1.0, 2.0), 1.0), Some(Cut::Circle { center, radius: 2.0 }));
-    assert_eq!(sphere_cut(&sphere(4.0, 5.0), 1.0), Some(Cut::Circle { center, radius: 4.0 }));
-    assert_eq!(sphere_cut(&sphere(3.0, 2.0), 1.0), Some(Cut::Circle { center, radius: 0.0 }));
-    assert_eq!(sphere_cut(&sphere(3.1, 2.0), 1.0), None);
+    assert_eq!(cut(1.0, 2.0), [Cut::Circle { center, radius: 2.0 }]);
+    assert_eq!(cut(4.0, 5.0), [Cut::Circle { center, radius: 4.0 }]);
+    assert_eq!(cut(3.0, 2.0), [Cut::Circle { center, radius: 0.0 }]);
+    assert_eq!(cut(3.1, 2.0), []);
 }
 
 #[test]
 fn planes_give_lines_unless_parallel() {
-    let plane = |normal: Vec3, distance: f32| Plane { normal, distance, material: 0 };
-    assert_eq!(plane_cut(&plane(Vec3::Y * 3.0, 1.0), 0.5), None);
+    let cut = |normal: Vec3, distance: f32, y: f64| {
+        let planes = vec![Plane { normal, distance, material: 0 }];
+        all(&Description { planes, ..Description::default() }, &Section { y, ..SEEN })
+    };
+    assert_eq!(cut(Vec3::Y * 3.0, 1.0, 0.5), []);
     // 2x + 2y − 6 = 0 at y = 1: x = 2, of any z.
-    let Some(Cut::Line { point, direction }) = plane_cut(&plane(Vec3::new(2.0, 2.0, 0.0), -6.0), 1.0) else { panic!() };
+    let [Cut::Line { point, direction }] = cut(Vec3::new(2.0, 2.0, 0.0), -6.0, 1.0)[..] else { panic!() };
     assert!(point.distance(DVec2::new(2.0, 0.0)) < 1e-12 && direction.x == 0.0 && direction.y != 0.0);
-}
-
-#[test]
-fn triangles_give_segments() {
-    let corners = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(4.0, 2.0, 0.0), DVec3::new(0.0, 2.0, 8.0)];
-    let expected = [DVec2::new(2.0, 0.0), DVec2::new(0.0, 4.0)];
-    for turn in 0..3 {
-        let mut corners = corners;
-        corners.rotate_left(turn);
-        let Some(Cut::Segment(a, b)) = polygon_cut(&corners, 1.0) else { panic!() };
-        assert!([a, b] == expected || [b, a] == expected);
-    }
-    assert_eq!(polygon_cut(&corners, 2.5), None);
-    assert_eq!(polygon_cut(&corners.map(|p| DVec3::new(p.x, 1.0, p.z)), 1.0), None, "parallel");
 }
 
 #[test]
@@ -452,14 +443,4 @@ fn extremes_are_numbers() {
             }
         }
     }
-}
-
-#[test]
-fn pieces_follow_the_pixels() {
-    for pixels in [1.0, 10.0, 1000.0, 11_000.0] {
-        let n = f64::from(SEEN.pieces(pixels * SEEN.pixel));
-        assert!(pixels.min(1500.0) * (1.0 - (PI / 2.0 / n).cos()) <= 0.25);
-    }
-    assert_eq!(Section { pixel: f64::NAN, ..SEEN }.pieces(1.0), 4);
-    assert_eq!(Section { radius: f64::MAX, ..SEEN }.pieces(f64::MAX), 256);
 }

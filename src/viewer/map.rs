@@ -2,9 +2,11 @@
 //!
 //! x runs to the right and z down, so that a camera looking along −z looks up the pane.
 
-use super::cut::{cuboid_corners, quad_corners};
+use super::outline::{Extent, Outline};
+use super::section::{Section, flat};
+use crate::kinds::for_each_kind;
 use crate::scene::Description;
-use glam::{DVec2, DVec3, Vec3, Vec3Swizzles};
+use glam::{DVec2, Vec3};
 
 /// Things further from the eye than this many times its distance to look_at do not count for the scale.
 const NEARBY: f64 = 4.0;
@@ -29,12 +31,6 @@ pub struct Layout {
     pub scale: f64,
 }
 
-/// What lies on the map at a point of the world: its x and z.
-pub fn flat(point: Vec3) -> DVec2 {
-    let point: DVec3 = point.as_dvec3();
-    DVec2::new(point.x, point.z)
-}
-
 impl Map {
     /// A map of the scene's surroundings: the eye, what it looks at, and the lights and primitives nearby.
     /// Planes have no end and do not count; neither does what is huge or far, or nothing would be left of the rest.
@@ -53,7 +49,7 @@ impl Map {
         for light in &description.lights {
             include(flat(light.position), flat(light.position));
         }
-        bodies(description).for_each(|(from, to)| include(from, to));
+        bodies(description).for_each(|Extent { low, high }| include(low, high));
         // When everything is in one line of sight from above, its length has to do for the width too.
         let half = (high - low) / 2.0;
         let least = half.max_element().max(distance * 0.25);
@@ -76,37 +72,14 @@ impl Map {
     }
 }
 
-/// The least and greatest (x, z) of all but the planes; a mesh is one.
-fn bodies(description: &Description) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
-    let around = |center: DVec2, spread: DVec2| (center - spread, center + spread);
-    let spheres = description.spheres.iter().map(move |s| around(flat(s.center), DVec2::splat(s.radius.into())));
-    let meshes = description.meshes.iter().filter_map(|mesh| bounds(mesh.positions.iter().copied().map(flat)));
-    let quads = description.quads.iter().filter_map(|quad| bounds(quad_corners(quad).map(|p| p.xz())));
-    let cuboids = description.cuboids.iter().filter_map(|cuboid| bounds(cuboid_corners(cuboid).map(|p| p.xz())));
-    let cylinders = description.cylinders.iter().map(|c| [(c.base, c.radius), (c.apex, c.radius)]);
-    let cones = description.cones.iter().map(|c| [(c.base, c.base_radius), (c.apex, c.apex_radius)]);
-    let sides = cylinders.chain(cones).filter_map(move |[(base, start), (apex, end)]| {
-        let spread = disc(apex.as_dvec3() - base.as_dvec3());
-        let ends = [around(flat(base), spread * f64::from(start)), around(flat(apex), spread * f64::from(end))];
-        bounds(ends.into_iter().flat_map(|(low, high)| [low, high]))
-    });
-    let tori = description.tori.iter().map(move |torus| {
-        let spread = disc(torus.axis.as_dvec3()) * f64::from(torus.major_radius);
-        around(flat(torus.center), spread + f64::from(torus.minor_radius))
-    });
-    let fractals = description.fractals.iter().map(move |f| around(flat(f.center), DVec2::splat(f.radius.into())));
-    spheres.chain(meshes).chain(quads).chain(cuboids).chain(sides).chain(tori).chain(fractals)
-}
-
-/// None of nothing.
-fn bounds(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
-    points.into_iter().map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
-}
-
-/// How far a circle of radius 1 about an axis spreads along x and z.
-fn disc(axis: DVec3) -> DVec2 {
-    let axis = axis.normalize();
-    DVec2::new(axis.yz().length(), axis.xy().length())
+/// How far all spread but the planes; a mesh is one.
+fn bodies(description: &Description) -> impl Iterator<Item = Extent> + '_ {
+    macro_rules! all {
+        ($($bounds:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
+            std::iter::empty()$($(.chain(description.$field.iter().filter_map(Outline::extent)))*)*
+        };
+    }
+    for_each_kind!(all)
 }
 
 impl Layout {
@@ -115,8 +88,13 @@ impl Layout {
         (point - self.center) * self.scale + self.middle
     }
 
+    /// What the pane shows of the horizontal plane at height `y`.
+    pub fn section(&self, y: f32) -> Section {
+        Section { y: y.into(), center: self.center, radius: self.reach(), pixel: 1.0 / self.scale }
+    }
+
     /// How far from the middle anything on the pane is, in world units.
-    pub fn reach(&self) -> f64 {
+    fn reach(&self) -> f64 {
         self.middle.length() / self.scale
     }
 
@@ -179,7 +157,7 @@ mod tests {
             [0.5, -2.5, 1.5, 2.5],
             [3.0, -2.0, 7.0, 2.0],
         ];
-        let found: Vec<[f64; 4]> = bodies(&d).map(|(low, high)| [low.x, low.y, high.x, high.y]).collect();
+        let found: Vec<[f64; 4]> = bodies(&d).map(|Extent { low, high }| [low.x, low.y, high.x, high.y]).collect();
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
             assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");

@@ -2,9 +2,10 @@
 //! the screen's middle row, projected onto it.
 
 use super::{
-    cut::{Cut, Section, cuts},
+    cut::cuts,
     draw::Picture,
-    map::{Layout, flat},
+    map::Layout,
+    section::{Cut, flat},
     text,
 };
 use crate::{
@@ -38,7 +39,7 @@ const LEGEND: [(u32, &str); 5] = [
 pub fn draw(picture: &mut Picture, layout: &Layout, description: &Description, camera: &Camera, paths: &[Segment]) {
     picture.fill(BACKGROUND);
     draw_paths(picture, layout, paths);
-    cuts(description, &Section::new(layout, camera.eye.y), |cut| match cut {
+    cuts(description, &layout.section(camera.eye.y), |cut| match cut {
         Cut::Circle { center, radius } => picture.circle(layout.place(center), radius * layout.scale, OUTLINE),
         Cut::Segment(from, to) => picture.segment(layout.place(from), layout.place(to), OUTLINE),
         Cut::Line { point, direction } => {

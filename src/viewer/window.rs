@@ -1,10 +1,10 @@
 //! The window's side: shows finished frames, asks for the next one, listens to keys and mouse.
 
 use super::{
-    Options, ViewerError,
     draw::Picture,
     frame::{Frame, Request},
     input::{Action, Listener},
+    options::{Options, ViewerError},
     overlay::{Meter, Overlay},
     screenshot,
     session::{Mouse, Session},

@@ -4,9 +4,9 @@ use plotters::prelude::RGBColor;
 
 use super::axis::{Axis, Panel, power_of_ten};
 use super::canvas::{Anchor, Canvas, Font};
+use super::job::{Chart, Context};
 use super::style::{self, COLORS, GREY, HEADING, Key, MARGIN, TEXT, caption, legend, title};
 use super::table::Table;
-use super::{Chart, Context};
 use crate::geometry::methods::OffsetMethod;
 use crate::measure::lab::{Machine, Offset, OffsetCurve, Sweep, sweep};
 

@@ -2,9 +2,9 @@
 
 use super::axis::{Axis, Panel};
 use super::canvas::{Anchor, Canvas};
+use super::job::{Chart, Context};
 use super::style::{self, HEADING, Key, MARGIN, SMALL, caption, color, legend, title, wrapped};
-use super::table::Table;
-use super::{Chart, Context};
+use super::table::{Table, optional};
 use crate::measure::cases::Subject;
 use crate::measure::lab::{CaseFailure, Curve, Machine, failures};
 
@@ -59,7 +59,7 @@ fn table(cases: &[CaseFailure]) -> Table {
                     &e.rays,
                     &e.hits,
                     &e.wrong,
-                    &super::optional(e.unexcused),
+                    &optional(e.unexcused),
                     &e.wrong_per_million(),
                     &e.t.median,
                     &e.t.p999,

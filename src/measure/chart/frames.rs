@@ -2,9 +2,9 @@
 
 use super::axis::{Axis, Panel};
 use super::canvas::{Anchor, Canvas, Marker};
+use super::job::{Chart, Context};
 use super::style::{GREY, HEADING, INK, Key, MARGIN, caption, color, legend, title};
 use super::table::Table;
-use super::{Chart, Context};
 use crate::measure::lab::{Frame, FramesOf, Machine, frames, frontier};
 use crate::render::Kernel;
 

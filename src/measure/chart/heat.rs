@@ -4,9 +4,9 @@ use plotters::prelude::RGBColor;
 
 use super::axis::power_of_ten;
 use super::canvas::{Anchor, Canvas};
+use super::job::{Chart, Context};
 use super::style::{self, GREY, HEADING, INK, Key, MARGIN, SMALL, TEXT, caption, legend, title};
 use super::table::Table;
-use super::{Chart, Context};
 use crate::measure::lab::{Cell, Heat, HeatMap, Machine, heat};
 
 /// A pixel's edge.

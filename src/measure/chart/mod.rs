@@ -14,33 +14,16 @@ mod epsilon;
 mod failure;
 mod frames;
 mod heat;
+mod job;
 mod speed_error;
 mod style;
 mod table;
 
+pub use job::Chart;
 pub use table::Table;
 
 use crate::measure::lab::{Budget, HEATS, Machine};
-
-/// A chart and its data.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chart {
-    /// Of both files, without an extension.
-    pub name: String,
-    /// The drawing.
-    pub svg: String,
-    /// The data.
-    pub table: Table,
-    /// Whether answers that have to agree did, in the run that was measured.
-    pub sound: bool,
-}
-
-/// What charts are made with.
-struct Context<'a> {
-    budget: &'a Budget,
-    machine: &'a Machine,
-    progress: &'a (dyn Fn(f32) + Sync),
-}
+use job::Context;
 
 /// The names of all charts, in the order in which they are best made: timings first, while the machine is cool.
 pub fn names() -> Vec<String> {
@@ -63,11 +46,6 @@ pub fn draw(name: &str, budget: &Budget, machine: &Machine, progress: &(dyn Fn(f
         _ if name.starts_with("heat-") => heat::draw(name, &context),
         _ => failure::draw(name, &context),
     }
-}
-
-/// A number, or nothing.
-fn optional(n: Option<usize>) -> String {
-    n.map(|n| n.to_string()).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use super::axis::{Axis, Panel};
 use super::canvas::{Anchor, Canvas, Font, Marker};
+use super::job::{Chart, Context};
 use super::style::{self, GREY, HEADING, INK, Key, MARGIN, TEXT, caption, color, legend, title};
-use super::table::Table;
-use super::{Chart, Context};
+use super::table::{Table, optional};
 use crate::measure::cases::Subject;
 use crate::measure::lab::{Machine, Point, SpeedOf, frontier, speed};
 use crate::render::Kernel;
@@ -64,7 +64,7 @@ fn table(subjects: &[SpeedOf]) -> Table {
                 &errors.normal.p999,
                 &errors.wrong_per_million(),
                 &errors.wrong,
-                &super::optional(errors.unexcused),
+                &optional(errors.unexcused),
                 &t.contains(&i),
                 &wrong.contains(&i),
             ]);

@@ -4,10 +4,11 @@
 //! that they are compared, and found equal, exactly. Between planes the ray is in solid or in void; the hit is the first
 //! plane where that changes, or where it touches a cube in an edge or corner.
 
+use super::body::{Body, Crossing, Line, exact3};
 use super::exact::{Exact, Exact3, minus};
 use super::root::Root;
-use super::{Crossing, Line, exact3};
 use crate::scene::Fractal;
+use glam::DVec3;
 
 /// As the description allows.
 const MOST_ITERATIONS: u32 = 8;
@@ -47,10 +48,24 @@ enum When {
     After,
 }
 
-pub fn fractal(it: &Fractal, line: &Line) -> Option<Crossing> {
-    let walk = Walk::new(it, line)?;
-    let (t, normal) = walk.first_change()?;
-    Some(Crossing { t, normal })
+impl Body for Fractal {
+    fn first(&self, line: &Line) -> Option<Crossing> {
+        let walk = Walk::new(self, line)?;
+        let (t, normal) = walk.first_change()?;
+        Some(Crossing { t, normal })
+    }
+
+    fn tips(&self, _width: f64) -> Vec<DVec3> {
+        vec![]
+    }
+
+    fn ball(&self) -> Option<(DVec3, f64)> {
+        Some((self.center.as_dvec3(), f64::from(self.radius) * 3f64.sqrt()))
+    }
+
+    fn thickness(&self) -> f64 {
+        2.0 * f64::from(self.radius) / 3f64.powi(self.iterations.min(8) as i32)
+    }
 }
 
 struct Walk {

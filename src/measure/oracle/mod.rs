@@ -38,74 +38,72 @@
 //! the direction as given unless asked otherwise; where δ matters, judge them on rays with small δ, or ask for world units
 //! by [`Ray::normalized`]. The hits are at the same places; t and the interval then count in units that differ by δ.
 
+mod body;
 mod cone;
 mod cuboid;
+mod cylinder;
 mod exact;
-mod flat;
 mod fractal;
+mod frustum;
+mod plane;
 mod polynomial;
+mod quad;
 mod root;
 mod settled;
 mod sphere;
 mod torus;
+mod triangle;
 mod turn;
 
 use std::cmp::Ordering;
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{self, Description, Sides};
-use exact::{Exact, Exact3};
+use crate::kinds::for_each_kind;
+use crate::scene::{self, Description};
+use body::{Body, Crossing, Described, Line, exact3};
+use exact::Exact;
 use root::Span;
 pub use settled::{Answers, around, settled};
+pub use triangle::Triangle;
 
-/// A primitive, as the description has it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// A plane.
-    Plane(scene::Plane),
-    /// A sphere.
-    Sphere(scene::Sphere),
-    /// A triangle of a mesh.
-    Triangle(Triangle),
-    /// A parallelogram.
-    Quad(scene::Quad),
-    /// A box.
-    Cuboid(scene::Cuboid),
-    /// A cylinder.
-    Cylinder(scene::Cylinder),
-    /// A cone or frustum.
-    Cone(scene::Cone),
-    /// A torus.
-    Torus(scene::Torus),
-    /// A Menger sponge, of 8 iterations at most.
-    Fractal(scene::Fractal),
-}
+/// Makes [`Shape`] and [`shapes`] of the list. A variant has its description's name; what a mesh holds are triangles.
+macro_rules! shapes {
+    (unbounded { $($unbounded:tt)* } bounded { $($bounded:tt)* }) => { shapes!([] $($unbounded)* $($bounded)*); };
+    ([$($done:tt)*] ($storage:ident: $Storage:ident, meshes: Mesh, $module:ident) $($rest:tt)*) => {
+        shapes!([$($done)* (meshes: Triangle, Triangle)] $($rest)*);
+    };
+    ([$($done:tt)*] ($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident) $($rest:tt)*) => {
+        shapes!([$($done)* ($field: $Kind, scene::$Kind)] $($rest)*);
+    };
+    ([$(($field:ident: $Variant:ident, $Body:ty))*]) => {
+        /// A primitive, as the description has it.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Shape {
+            $(
+                #[doc = concat!("Of [`Description::", stringify!($field), "`].")]
+                $Variant($Body),
+            )*
+        }
 
-/// A triangle by itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Triangle {
-    /// Counter-clockwise as seen from the front.
-    pub corners: [Vec3; 3],
-    /// Which side is there.
-    pub sides: Sides,
-}
+        impl Shape {
+            fn body(&self) -> &dyn Body {
+                match self {
+                    $(Self::$Variant(it) => it,)*
+                }
+            }
+        }
 
-/// All primitives of a description, by id. A triangle that names a vertex that does not exist is none, as it has no area.
-pub fn shapes(scene: &Description) -> Vec<Shape> {
-    let triangles = scene.meshes.iter().flat_map(|mesh| {
-        let corner = |v: u32| mesh.positions.get(v as usize).copied().unwrap_or(Vec3::NAN);
-        mesh.triangles.iter().map(move |t| Shape::Triangle(Triangle { corners: t.map(corner), sides: mesh.sides }))
-    });
-    let planes = scene.planes.iter().copied().map(Shape::Plane);
-    let flat = planes.chain(scene.spheres.iter().copied().map(Shape::Sphere)).chain(triangles);
-    let quads = scene.quads.iter().copied().map(Shape::Quad);
-    let bodies = quads.chain(scene.cuboids.iter().copied().map(Shape::Cuboid));
-    let round = scene.cylinders.iter().copied().map(Shape::Cylinder);
-    let round = round.chain(scene.cones.iter().copied().map(Shape::Cone));
-    let round = round.chain(scene.tori.iter().copied().map(Shape::Torus));
-    flat.chain(bodies).chain(round).chain(scene.fractals.iter().copied().map(Shape::Fractal)).collect()
+        /// All primitives of a description, by id. A triangle that names a vertex that does not exist is none, as it
+        /// has no area.
+        pub fn shapes(scene: &Description) -> Vec<Shape> {
+            let mut all = Vec::with_capacity(scene.primitives());
+            $(all.extend(scene.$field.iter().flat_map(Described::bodies).map(Shape::$Variant));)*
+            all
+        }
+    };
 }
+for_each_kind!(shapes);
 
 /// A ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,49 +154,8 @@ fn nearest_from(shape: &Shape, origin: DVec3, ray: &Ray, interval: [f64; 2]) -> 
     let length = if ray.normalized { square.sqrt() } else { Exact::integer(1) };
     let bound = |t: f64| Exact::from_f64(t).map(|t| if ray.normalized { t.quotient(&length) } else { t });
     let span = Span { low: bound(interval[0]), high: bound(interval[1]) };
-    let Crossing { t, normal } = first(shape, &Line { origin, direction, span })?;
+    let Crossing { t, normal } = shape.body().first(&Line { origin, direction, span })?;
     Some(Truth { t: (t * length).to_f64(), normal: exact::unit(&normal) })
-}
-
-/// A ray for the primitives' tests.
-struct Line {
-    origin: Exact3,
-    direction: Exact3,
-    span: Span,
-}
-
-/// A hit: t to 2⁻⁹⁰ of itself or better, and the normal, of any length.
-struct Crossing {
-    t: Exact,
-    normal: Exact3,
-}
-
-fn first(shape: &Shape, line: &Line) -> Option<Crossing> {
-    match shape {
-        Shape::Plane(it) => flat::plane(it, line),
-        Shape::Sphere(it) => sphere::sphere(it, line),
-        Shape::Triangle(it) => flat::triangle(it, line),
-        Shape::Quad(it) => flat::quad(it, line),
-        Shape::Cuboid(it) => cuboid::cuboid(it, line),
-        Shape::Cylinder(it) => cone::cylinder(it, line),
-        Shape::Cone(it) => cone::cone(it, line),
-        Shape::Torus(it) => torus::torus(it, line),
-        Shape::Fractal(it) => fractal::fractal(it, line),
-    }
-}
-
-/// Whether a side is there, by the sign of the slope with which the ray's distance from it changes, outside being above 0.
-fn visible(sides: Sides, slope: Ordering) -> bool {
-    match sides {
-        Sides::Both => true,
-        Sides::Front => slope.is_le(),
-        Sides::Back => slope.is_ge(),
-    }
-}
-
-/// `None` where a component is not finite.
-fn exact3(v: Vec3) -> Option<Exact3> {
-    exact::vector(v.as_dvec3())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! rule and sponges by all their cubes; [`closed`] cases known by hand; [`nearby`] what is settled; [`against`] everything
 //! by the `f64` reference.
 use super::*;
-use crate::scene::{Cone, Cuboid, Cylinder, Fractal, Plane, Quad, Sphere, Torus};
+use crate::scene::{Cone, Cuboid, Cylinder, Fractal, Plane, Quad, Sides, Sphere, Torus};
 use glam::vec3;
 
 mod against;

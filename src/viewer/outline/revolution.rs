@@ -1,4 +1,4 @@
-//! What a horizontal plane cuts out of the bodies of revolution: cylinders, cones, tori.
+//! What bodies of revolution have in common in the slice: cylinders, cones, tori.
 //!
 //! The vertical plane through a body's axis is a plane of symmetry, and meets the slice in a line. t runs along it, and
 //! w is the distance from it in the slice. In that vertical plane, a point of the line is at s along the axis
@@ -10,26 +10,28 @@
 //! wherever |c| ≤ r. The ends of these intervals of t are known exactly. There the outline runs across the line, as
 //! an ellipse does at its ends, and samples are placed as if it were one: evenly by its angle.
 
-use super::cut::{Cut, Section};
-use crate::scene::Torus;
+use super::Extent;
+use crate::viewer::section::{Cut, Section, flat};
 use glam::{DVec2, DVec3, Vec3, Vec3Swizzles};
 use std::f64::consts::FRAC_PI_2;
 
 /// The slice as seen from an axis.
-struct Tilt {
+pub struct Tilt {
     /// Where t = w = 0, in (x, z): below or above the axis' origin.
-    origin: DVec2,
+    pub origin: DVec2,
     /// The direction of t.
     along: DVec2,
-    /// The horizontal and vertical part of the unit axis: s by t and by height.
-    level: f64,
-    steep: f64,
+    /// The horizontal part of the unit axis: s by t.
+    pub level: f64,
+    /// Its vertical part: s by height.
+    pub steep: f64,
     /// The slice's height above the origin.
-    rise: f64,
+    pub rise: f64,
 }
 
 impl Tilt {
-    fn new(origin: Vec3, axis: DVec3, y: f64) -> Self {
+    /// `axis` is of any length but zero, `y` the slice's height.
+    pub fn new(origin: Vec3, axis: DVec3, y: f64) -> Self {
         let (axis, origin) = (axis.normalize(), origin.as_dvec3());
         let (level, steep) = (axis.xz().length(), axis.y);
         let along = axis.xz().try_normalize().unwrap_or(DVec2::X);
@@ -37,26 +39,27 @@ impl Tilt {
     }
 
     /// s at t.
-    fn axial(&self, t: f64) -> f64 {
+    pub fn axial(&self, t: f64) -> f64 {
         self.level * t + self.steep * self.rise
     }
 
     /// c at t.
-    fn across(&self, t: f64) -> f64 {
+    pub fn across(&self, t: f64) -> f64 {
         self.level * self.rise - self.steep * t
     }
 
     /// t where s is `axial`; infinite or NaN for an upright axis.
-    fn reaches(&self, axial: f64) -> f64 {
+    pub fn reaches(&self, axial: f64) -> f64 {
         (axial - self.steep * self.rise) / self.level
     }
 
+    /// In (x, z).
     fn point(&self, t: f64, w: f64) -> DVec2 {
         self.origin + self.along * t + self.along.perp() * w
     }
 
     /// The t that is seen.
-    fn seen(&self, section: &Section) -> [f64; 2] {
+    pub fn seen(&self, section: &Section) -> [f64; 2] {
         let middle = (section.center - self.origin).dot(self.along);
         [middle - section.radius, middle + section.radius]
     }
@@ -69,7 +72,7 @@ impl Tilt {
     }
 
     /// Both halves of an outline, symmetric about the line, for t in an interval. `radius` is the body's at t.
-    fn outline(&self, [low, high]: [f64; 2], pieces: u32, radius: impl Fn(f64) -> f64, emit: &mut dyn FnMut(Cut)) {
+    pub fn outline(&self, [low, high]: [f64; 2], pieces: u32, radius: impl Fn(f64) -> f64, emit: &mut dyn FnMut(Cut)) {
         let sample = |i: u32| {
             // sin² runs from 0 to 1 as half of 1 − cos, right to the last bits at both ends.
             let part = (FRAC_PI_2 * f64::from(i) / f64::from(pieces)).sin().powi(2);
@@ -134,48 +137,15 @@ pub fn side_cuts(ends: [Vec3; 2], radii: [f32; 2], caps: bool, section: &Section
     }
 }
 
-/// What is cut out of a torus: with R and m its radii, it lies between R ± √(m² − s²) from its axis.
-pub fn torus_cuts(torus: &Torus, section: &Section, emit: &mut dyn FnMut(Cut)) {
-    let (major, minor) = (f64::from(torus.major_radius), f64::from(torus.minor_radius));
-    if !section.meets(torus.center.as_dvec3(), major + minor) {
-        return;
-    }
-    let tilt = Tilt::new(torus.center, torus.axis.as_dvec3(), section.y);
-    let tube = |t: f64| {
-        let axial = tilt.axial(t).abs();
-        ((minor - axial) * (minor + axial)).max(0.0).sqrt()
-    };
-    let (outer, inner) = (|t: f64| major + tube(t), |t: f64| major - tube(t));
-    if tilt.level == 0.0 {
-        if tilt.axial(0.0).abs() <= minor {
-            emit(Cut::Circle { center: tilt.origin, radius: outer(0.0) });
-            emit(Cut::Circle { center: tilt.origin, radius: inner(0.0) });
-        }
-        return;
-    }
-    let [low, high] = tilt.seen(section);
-    let mut ends = vec![low, high];
-    ends.extend([-minor, minor].map(|axial| tilt.reaches(axial)));
-    for side in [-major, major] {
-        // The tube's two circles in the vertical plane: where the line enters and leaves each. When it passes by, where
-        // it is nearest, since an outline that has just parted or is about to join bends sharply there.
-        let (nearest, off) = (-tilt.steep * side, (tilt.rise - tilt.level * side).abs());
-        let reach = ((minor - off) * (minor + off)).max(0.0).sqrt();
-        ends.extend([nearest - reach, nearest + reach]);
-    }
-    ends.retain(|t| (low..=high).contains(t));
-    ends.sort_by(f64::total_cmp);
-    for pair in ends.windows(2) {
-        let (span, middle) = ([pair[0], pair[1]], (pair[0] + pair[1]) / 2.0);
-        if pair[0] == pair[1] || tilt.axial(middle).abs() > minor {
-            continue;
-        }
-        let (across, pieces) = (tilt.across(middle).abs(), section.pieces(major + minor));
-        if outer(middle) >= across {
-            tilt.outline(span, pieces, outer, emit);
-        }
-        if inner(middle) >= across {
-            tilt.outline(span, pieces, inner, emit);
-        }
-    }
+/// How far a cylinder or cone spreads.
+pub fn side_extent([base, apex]: [Vec3; 2], [start, end]: [f32; 2]) -> Extent {
+    let spread = disc(apex.as_dvec3() - base.as_dvec3());
+    let around = |middle: Vec3, radius: f32| Extent::around(flat(middle), spread * f64::from(radius));
+    around(base, start).with(around(apex, end))
+}
+
+/// How far a circle of radius 1 about an axis spreads along x and z.
+pub fn disc(axis: DVec3) -> DVec2 {
+    let axis = axis.normalize();
+    DVec2::new(axis.yz().length(), axis.xy().length())
 }
