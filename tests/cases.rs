@@ -3,7 +3,7 @@
 use raypacket::math::Lanes;
 use raypacket::measure::cases::{ALL, Case, Generator, Ray, Subject, find};
 use raypacket::scene::{Description, Scene, Structure, compile, compile_with};
-use raypacket::trace::{BATCH, Blocked, Scratch, Hit, HitBatch, NONE, RayBatch, intersect, intersect_one, occluded};
+use raypacket::trace::{BATCH, Blocked, Hit, HitBatch, NONE, RayBatch, Scratch, intersect, intersect_one, occluded};
 use wide::{f32x4, f32x8};
 
 /// Rays a setting: more than a batch, and no multiple of a packet.

@@ -11,7 +11,7 @@ use raypacket::scene::{
     CompileOptions, Description, Material, Mesh, Quad, Scene, Sides, Sphere, Structure, Torus, compile, compile_with,
     load,
 };
-use raypacket::trace::{BATCH, Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, occluded};
+use raypacket::trace::{BATCH, Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use common::{Pcg, light};

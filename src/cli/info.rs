@@ -1,8 +1,9 @@
 //! `raypacket info`: what a scene holds and how it will be traced.
 
 use super::args::{DEFAULT_SCENE, Methods, count};
+use super::failure::Failure;
 use super::plan::PlanText;
-use super::{Failure, input, print};
+use super::{input, print};
 use raypacket::scene::{Description, KINDS, Scene, Sky, one_line};
 use std::fmt;
 

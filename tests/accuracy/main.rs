@@ -15,7 +15,7 @@ use raypacket::geometry::{Primitives, Surface};
 use raypacket::measure::cases::Ray;
 use raypacket::measure::oracle::Shape;
 use raypacket::scene::{CompileOptions, Description, Scene, compile_with};
-use raypacket::trace::{BATCH, Scratch, HitBatch, NONE, RayBatch, intersect};
+use raypacket::trace::{BATCH, HitBatch, NONE, RayBatch, Scratch, intersect};
 use wide::f32x8;
 
 /// The nearest hit: t, and the primitive's id.

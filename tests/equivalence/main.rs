@@ -10,7 +10,7 @@ mod scenes;
 
 use raypacket::math::{BATCH, Lanes};
 use raypacket::scene::{Description, Scene, Structure, compile_with};
-use raypacket::trace::{Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, occluded};
+use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use common::Pcg;

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use raypacket::{
     math::Lanes,
     scene::{Scene, Structure, compile_with},
-    trace::{Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, intersect_stream, occluded, occluded_stream},
+    trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, intersect_stream, occluded, occluded_stream},
 };
 use wide::{f32x4, f32x8};
 

@@ -9,7 +9,7 @@ use raypacket::{
     measure::verify::K,
     reference::Tracer,
     scene::{Description, Scene, Structure, compile, compile_with},
-    trace::{Blocked, Scratch, HitBatch, RayBatch, intersect, occluded},
+    trace::{Blocked, HitBatch, RayBatch, Scratch, intersect, occluded},
 };
 use wide::{f32x4, f32x8};
 

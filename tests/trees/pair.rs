@@ -4,7 +4,7 @@ use glam::Vec3;
 use raypacket::bvh::Aabb;
 use raypacket::math::{BATCH, Lanes};
 use raypacket::scene::{Description, Scene, Structure, compile_with};
-use raypacket::trace::{Blocked, Scratch, HitBatch, NONE, RayBatch, intersect, occluded};
+use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
 use crate::common::empty;
