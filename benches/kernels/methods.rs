@@ -94,7 +94,7 @@ impl Method for MollerTrumbore {
     }
     #[inline(always)]
     fn test<L: Lanes>(seen: &Self::Seen, aim: &Lane3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-        triangle::moller_trumbore(&seen.map(L::splat), *aim, t_min, t_max)
+        triangle::moller_trumbore(&seen.map(|number| L::splat(*number)), *aim, t_min, t_max)
     }
 }
 

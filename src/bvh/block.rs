@@ -36,10 +36,11 @@ impl<K: Primitives> Block<K> {
     /// Of the primitives with these ids, of which `first` is the kind's first; at least one.
     fn new(kind: &K, first: u32, id: [u32; BLOCK]) -> Self {
         let shape = |lane: usize| kind.shape((id[lane] - first) as usize);
-        let mut columns = K::map(&shape(0), |number| [number; BLOCK]);
+        let mut columns = K::map(&shape(0), |number| [*number; BLOCK]);
         for lane in (1..BLOCK).take_while(|&lane| id[lane] != NONE) {
-            columns = K::zip(&columns, &shape(lane), |mut column: [f32; BLOCK], number| {
-                column[lane] = number;
+            columns = K::zip(&columns, &shape(lane), |column: &[f32; BLOCK], number| {
+                let mut column = *column;
+                column[lane] = *number;
                 column
             });
         }
@@ -59,7 +60,7 @@ impl<K: Primitives> Block<K> {
     /// The numbers of one primitive.
     #[inline(always)]
     pub fn primitive(&self, lane: usize) -> K::Shape<f32> {
-        K::map(&self.shape, |column: [f32; BLOCK]| column[lane & (BLOCK - 1)])
+        K::map(&self.shape, |column: &[f32; BLOCK]| column[lane & (BLOCK - 1)])
     }
 }
 

@@ -202,7 +202,7 @@ fn same<K: Primitives>(kind: &K, block: &Block<K>) {
     for lane in 0..BLOCK {
         let id = if lane < block.len() { block.id[lane] } else { block.id[0] };
         let (stored, shape) = (block.primitive(lane), kind.shape(Check::index(id)));
-        K::zip(&stored, &shape, |a: f32, b: f32| assert!(a.to_bits() == b.to_bits()));
+        K::zip(&stored, &shape, |a: &f32, b: &f32| assert!(a.to_bits() == b.to_bits()));
     }
 }
 

@@ -213,7 +213,8 @@ struct Local<L: Lanes> {
 }
 
 impl Bounded for Cones {
-    const BOXED: bool = true;
+    /// Rounding acts as if the ray were moved, so that every hit lies next to the surface, if anywhere.
+    const BOXED: bool = false;
     #[inline(always)]
     fn extent<L: Lanes>(cone: &ConeShape<L>) -> [Vec3<L>; 2] {
         cone.bounds
@@ -260,7 +261,11 @@ impl Primitives for Cones {
         self.hull[i]
     }
     #[inline(always)]
-    fn zip<A: Number, B: Number, C: Number>(a: &ConeShape<A>, b: &ConeShape<B>, f: impl Fn(A, B) -> C) -> ConeShape<C> {
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &ConeShape<A>,
+        b: &ConeShape<B>,
+        f: impl Fn(&A, &B) -> C,
+    ) -> ConeShape<C> {
         a.zip(b, f)
     }
     #[inline(always)]
@@ -275,7 +280,7 @@ impl Primitives for Cones {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenCone<f32>) -> SeenCone<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenCone<L>, hull: Hull, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {

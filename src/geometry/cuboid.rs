@@ -187,7 +187,7 @@ impl Primitives for Cuboids {
     fn zip<A: Number, B: Number, C: Number>(
         a: &CuboidShape<A>,
         b: &CuboidShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> CuboidShape<C> {
         a.zip(b, f)
     }
@@ -203,7 +203,7 @@ impl Primitives for Cuboids {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenCuboid<f32>) -> SeenCuboid<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenCuboid<L>, turned: Turned, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {

@@ -126,7 +126,8 @@ impl Cylinders {
 }
 
 impl Bounded for Cylinders {
-    const BOXED: bool = true;
+    /// Rounding acts as if the ray were moved, so that every hit lies next to the surface, if anywhere.
+    const BOXED: bool = false;
     #[inline(always)]
     fn extent<L: Lanes>(cylinder: &CylinderShape<L>) -> [Vec3<L>; 2] {
         cylinder.bounds
@@ -179,7 +180,7 @@ impl Primitives for Cylinders {
     fn zip<A: Number, B: Number, C: Number>(
         a: &CylinderShape<A>,
         b: &CylinderShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> CylinderShape<C> {
         a.zip(b, f)
     }
@@ -194,7 +195,7 @@ impl Primitives for Cylinders {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenCylinder<f32>) -> SeenCylinder<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenCylinder<L>, hull: Hull, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {

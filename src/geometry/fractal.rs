@@ -228,7 +228,7 @@ impl Primitives for Fractals {
     fn zip<A: Number, B: Number, C: Number>(
         a: &FractalShape<A>,
         b: &FractalShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> FractalShape<C> {
         a.zip(b, f)
     }
@@ -238,7 +238,7 @@ impl Primitives for Fractals {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenFractal<f32>) -> SeenFractal<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(

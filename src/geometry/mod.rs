@@ -144,17 +144,17 @@ pub trait Primitives: Sized {
     fn zip<A: Number, B: Number, C: Number>(
         a: &Self::Shape<A>,
         b: &Self::Shape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> Self::Shape<C>;
     /// Number by number.
     #[inline(always)]
-    fn map<A: Number, B: Number>(shape: &Self::Shape<A>, f: impl Fn(A) -> B) -> Self::Shape<B> {
+    fn map<A: Number, B: Number>(shape: &Self::Shape<A>, f: impl Fn(&A) -> B) -> Self::Shape<B> {
         Self::zip(shape, shape, |a, _| f(a))
     }
     /// The same primitive in every lane.
     #[inline(always)]
     fn splat<L: Lanes>(shape: &Self::Shape<f32>) -> Self::Shape<L> {
-        Self::map(shape, L::splat)
+        Self::map(shape, |number| L::splat(*number))
     }
 
     /// Primitives as seen from `origin`.

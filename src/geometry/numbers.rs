@@ -36,13 +36,13 @@ macro_rules! numbers {
         impl<T: Copy> $name<T> {
             /// Number by number, from this and another.
             #[inline(always)]
-            pub fn zip<U: Copy, V: Copy>(&self, other: &$name<U>, f: impl Fn(T, U) -> V) -> $name<V> {
+            pub fn zip<U: Copy, V: Copy>(&self, other: &$name<U>, f: impl Fn(&T, &U) -> V) -> $name<V> {
                 $name { $($field: crate::geometry::numbers::zip!($form, self.$field, other.$field, f),)+ }
             }
 
             /// Number by number.
             #[inline(always)]
-            pub fn map<V: Copy>(&self, f: impl Fn(T) -> V) -> $name<V> {
+            pub fn map<V: Copy>(&self, f: impl Fn(&T) -> V) -> $name<V> {
                 self.zip(self, |a, _| f(a))
             }
         }
@@ -63,16 +63,16 @@ macro_rules! form {
 /// Two of a form, number by number.
 macro_rules! zip {
     (T, $a:expr, $b:expr, $f:ident) => {
-        $f($a, $b)
+        $f(&$a, &$b)
     };
     ([T; 2], $a:expr, $b:expr, $f:ident) => {
-        [$f($a[0], $b[0]), $f($a[1], $b[1])]
+        [$f(&$a[0], &$b[0]), $f(&$a[1], &$b[1])]
     };
     ([T; 3], $a:expr, $b:expr, $f:ident) => {
-        [$f($a[0], $b[0]), $f($a[1], $b[1]), $f($a[2], $b[2])]
+        [$f(&$a[0], &$b[0]), $f(&$a[1], &$b[1]), $f(&$a[2], &$b[2])]
     };
     (Vec3, $a:expr, $b:expr, $f:ident) => {
-        crate::math::Vec3 { x: $f($a.x, $b.x), y: $f($a.y, $b.y), z: $f($a.z, $b.z) }
+        crate::math::Vec3 { x: $f(&$a.x, &$b.x), y: $f(&$a.y, &$b.y), z: $f(&$a.z, &$b.z) }
     };
     ([Vec3; 2], $a:expr, $b:expr, $f:ident) => {
         [crate::geometry::numbers::zip!(Vec3, $a[0], $b[0], $f), crate::geometry::numbers::zip!(Vec3, $a[1], $b[1], $f)]

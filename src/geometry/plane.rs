@@ -99,7 +99,7 @@ impl Primitives for Planes {
     fn zip<A: Number, B: Number, C: Number>(
         a: &PlaneShape<A>,
         b: &PlaneShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> PlaneShape<C> {
         a.zip(b, f)
     }
@@ -109,7 +109,7 @@ impl Primitives for Planes {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenPlane<f32>) -> SeenPlane<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenPlane<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {

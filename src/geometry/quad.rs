@@ -122,7 +122,11 @@ impl Primitives for Quads {
     }
     fn variant(&self, _: usize) {}
     #[inline(always)]
-    fn zip<A: Number, B: Number, C: Number>(a: &QuadShape<A>, b: &QuadShape<B>, f: impl Fn(A, B) -> C) -> QuadShape<C> {
+    fn zip<A: Number, B: Number, C: Number>(
+        a: &QuadShape<A>,
+        b: &QuadShape<B>,
+        f: impl Fn(&A, &B) -> C,
+    ) -> QuadShape<C> {
         a.zip(b, f)
     }
     #[inline(always)]
@@ -134,7 +138,7 @@ impl Primitives for Quads {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenQuad<f32>) -> SeenQuad<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenQuad<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {

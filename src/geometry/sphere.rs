@@ -119,7 +119,7 @@ impl Primitives for Spheres {
     fn zip<A: Number, B: Number, C: Number>(
         a: &SphereShape<A>,
         b: &SphereShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> SphereShape<C> {
         a.zip(b, f)
     }
@@ -129,7 +129,7 @@ impl Primitives for Spheres {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenSphere<f32>) -> SeenSphere<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenSphere<L>, sides: Sides, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
@@ -179,8 +179,8 @@ impl Test<Spheres> for SphereMethod {
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &NamedSphere<f32>) -> NamedSphere<L> {
         match seen {
-            NamedSphere::Rounded(seen) => NamedSphere::Rounded(seen.map(L::splat)),
-            NamedSphere::Exact(seen) => NamedSphere::Exact(seen.map(L::splat)),
+            NamedSphere::Rounded(seen) => NamedSphere::Rounded(seen.map(|number| L::splat(*number))),
+            NamedSphere::Exact(seen) => NamedSphere::Exact(seen.map(|number| L::splat(*number))),
         }
     }
     /// Only the default knows sides apart.

@@ -211,7 +211,7 @@ impl Primitives for Tori {
     fn zip<A: Number, B: Number, C: Number>(
         a: &TorusShape<A>,
         b: &TorusShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> TorusShape<C> {
         a.zip(b, f)
     }
@@ -222,7 +222,7 @@ impl Primitives for Tori {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenTorus<f32>) -> SeenTorus<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenTorus<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
@@ -264,7 +264,7 @@ impl Test<Tori> for TorusMethod {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenTorus<f32>) -> SeenTorus<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(self, seen: &SeenTorus<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {

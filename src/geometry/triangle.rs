@@ -272,7 +272,7 @@ impl Primitives for Triangles {
     fn zip<A: Number, B: Number, C: Number>(
         a: &TriangleShape<A>,
         b: &TriangleShape<B>,
-        f: impl Fn(A, B) -> C,
+        f: impl Fn(&A, &B) -> C,
     ) -> TriangleShape<C> {
         a.zip(b, f)
     }
@@ -284,7 +284,7 @@ impl Primitives for Triangles {
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenTriangle<f32>) -> SeenTriangle<L> {
-        seen.map(L::splat)
+        seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenTriangle<L>, sides: Sides, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
@@ -329,9 +329,9 @@ impl Test<Triangles> for TriangleMethod {
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &NamedTriangle<f32>) -> NamedTriangle<L> {
         match seen {
-            NamedTriangle::Corners(seen) => NamedTriangle::Corners(seen.map(L::splat)),
-            NamedTriangle::Edges(seen) => NamedTriangle::Edges(seen.map(L::splat)),
-            NamedTriangle::Planes(seen) => NamedTriangle::Planes(seen.map(L::splat)),
+            NamedTriangle::Corners(seen) => NamedTriangle::Corners(seen.map(|number| L::splat(*number))),
+            NamedTriangle::Edges(seen) => NamedTriangle::Edges(seen.map(|number| L::splat(*number))),
+            NamedTriangle::Planes(seen) => NamedTriangle::Planes(seen.map(|number| L::splat(*number))),
         }
     }
     #[inline(always)]

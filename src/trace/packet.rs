@@ -72,22 +72,22 @@ impl<L: Lanes> Within<L> {
     }
 }
 
-/// The hits of a packet with a primitive, or with one in every lane, that count; `t_max` is how far it looks at the most.
+/// The hits of a packet with a primitive, or with one in every lane, that count. `faces` are the packet's for boxes; of
+/// account only for kinds whose hits those bound.
 #[inline(always)]
 pub fn hits<K: Bounded, T: Test<K>, L: Lanes>(
     test: T,
     shape: &K::Shape<L>,
     variant: K::Variant,
     packet: &Packet<L>,
-    t_max: L,
+    faces: &Aim<L>,
 ) -> LaneHits<L> {
     if !K::BOXED {
         let seen = test.seen(shape, variant, packet.origin);
         // As far as the ray goes: what was found may be as near with a higher id.
         return test.nearest(&seen, variant, &K::aim(packet.direction), packet.t_min, L::splat(f32::INFINITY));
     }
-    let faces = Aim::new(packet.direction);
-    let within = Within::of(K::extent(shape), packet.origin, &faces, packet.t_min, t_max)?;
+    let within = Within::of(K::extent(shape), packet.origin, faces, packet.t_min, packet.t_max)?;
     let seen = test.seen(shape, variant, packet.origin);
     // As far as the ray goes: the box may bring a hit before another that was found.
     let (t, inside) = test.nearest(&seen, variant, &K::aim(packet.direction), packet.t_min, packet.t_max)?;

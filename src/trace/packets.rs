@@ -176,6 +176,16 @@ fn boxed<F: Form, K: Bounded, T: Test<K>, L: Lanes, A: Found<L>>(
     }
     let aim = K::aim(packet.direction);
     for (record, variant, id) in candidates {
+        if !K::BOXED {
+            let seen = F::seen::<K, T, L>(test, record, *variant, packet.origin);
+            if let Some((t, inside)) = test.nearest(&seen, *variant, &aim, packet.t_min, found.t_max()) {
+                found.hit(t, inside, *id);
+                if found.done() {
+                    return;
+                }
+            }
+            continue;
+        }
         let bounds = kind.around((id - first) as usize).map(Vec3::splat);
         let Some(within) = Within::of(bounds, packet.origin, faces, packet.t_min, found.t_max()) else { continue };
         let seen = F::seen::<K, T, L>(test, record, *variant, packet.origin);

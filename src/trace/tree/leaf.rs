@@ -4,6 +4,7 @@
 use super::beam::Beam;
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
+use crate::geometry::face::Aim as Faces;
 use crate::geometry::triangle::Aim;
 use crate::geometry::*;
 use crate::kinds::for_each_kind;
@@ -147,7 +148,7 @@ pub fn met<K: Bounded, L, const MIXED: bool>(block: &Block<K>, group: &Group<L, 
 /// All primitives of a block, one a lane.
 #[inline(always)]
 pub fn columns<K: Primitives>(block: &Block<K>) -> K::Shape<f32x8> {
-    K::map(&block.shape, |column: [f32; BLOCK]| f32x8::from(column))
+    K::map(&block.shape, |column: &[f32; BLOCK]| f32x8::from(*column))
 }
 
 /// Packets against the primitives of some lanes.
@@ -163,12 +164,13 @@ fn packets<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
     let mut taken = false;
     for at in range.step_by(L::WIDTH) {
         let packet = Packet::<L>::of(walk.rays, at);
+        let faces = Faces::new(packet.direction);
         let mut left = lanes;
         while left != 0 {
             let lane = left.trailing_zeros() as usize & (BLOCK - 1);
             left &= left - 1;
             let shape = K::splat(&block.primitive(lane));
-            if let Some((t, inside)) = hits::<K, T, L>(test, &shape, variant, &packet, packet.t_max) {
+            if let Some((t, inside)) = hits::<K, T, L>(test, &shape, variant, &packet, &faces) {
                 taken |= walk.state.take::<Q, L>(at, t, inside, block.id[lane]);
             }
         }
@@ -198,7 +200,8 @@ fn eight<Q: Query, K: Bounded, T: Test<K>>(
     variant: K::Variant,
     ray: &Alone,
 ) -> bool {
-    let found = hits::<K, T, f32x8>(test, &columns(block), variant, &ray.packet, ray.packet.t_max);
+    let faces = Faces::new(ray.packet.direction);
+    let found = hits::<K, T, f32x8>(test, &columns(block), variant, &ray.packet, &faces);
     found.is_some_and(|(t, inside)| take_eight::<Q>(walk, ray.i, t, inside, &block.id))
 }
 
