@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::{BLOCK, Child};
+use super::kind::{Child, Kind};
+use super::limits::BLOCK;
+use super::prefetch::lines;
 use crate::geometry::*;
 use crate::kinds::for_each_kind;
 use crate::math::NONE;
@@ -122,38 +124,6 @@ impl<K: Primitives> Default for BlockList<K> {
 
 macro_rules! blocks {
     (unbounded { $($unbounded:tt)* } bounded { $(($field:ident: $Storage:ident, $($rest:tt)*))* }) => {
-        /// What a child is.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Kind {
-            /// A node.
-            Node,
-            $(#[doc = concat!("A block of ", stringify!($field), ".")] $Storage,)*
-            /// Nothing.
-            Nothing,
-        }
-
-        impl Kind {
-            /// All kinds of blocks, in the order of their primitives' ids.
-            pub const BLOCKS: &[Self] = &[$(Self::$Storage),*];
-
-            /// As it is called.
-            pub fn name(self) -> &'static str {
-                match self {
-                    Self::Node => "nodes",
-                    $(Self::$Storage => stringify!($field),)*
-                    Self::Nothing => "nothing",
-                }
-            }
-
-            /// By the number in a [`Child`].
-            pub(super) const BY_NUMBER: [Self; 16] = {
-                let mut kinds = [Self::Nothing; 16];
-                kinds[0] = Self::Node;
-                $(kinds[Self::$Storage as usize] = Self::$Storage;)*
-                kinds
-            };
-        }
-
         /// All blocks, by kind.
         #[derive(Clone, Debug, Default)]
         pub struct Blocks {
@@ -186,7 +156,7 @@ macro_rules! blocks {
                 match block.kind() {
                     $(Kind::$Storage => {
                         let block = self.$field.blocks.get(i);
-                        super::fetch::lines(size_of::<Block<$Storage>>(), block.map(|block| &block.id[..]));
+                        lines(size_of::<Block<$Storage>>(), block.map(|block| &block.id[..]));
                     })*
                     Kind::Node | Kind::Nothing => (),
                 }

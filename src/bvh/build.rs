@@ -6,8 +6,9 @@ use rayon::join;
 use super::aabb::{Aabb, Bounds};
 use super::bins::Bins;
 use super::collapse::{Choices, Costs};
+use super::kind::Class;
+use super::limits::BLOCK;
 use super::refs::{Extent, Ref};
-use super::{BLOCK, Class};
 
 /// A range of one class that is no longer is not split further.
 const SMALLEST: usize = 2;

@@ -8,7 +8,7 @@
 use std::array::from_fn;
 
 use super::aabb::Aabb;
-use super::{BLOCK, BLOCK_COST, NODE_COST, PRIMITIVE_COST, WIDTH};
+use super::limits::{BLOCK, BLOCK_COST, NODE_COST, PRIMITIVE_COST, WIDTH};
 
 /// The least cost of a subtree as at most 1, 2 … 7 children: area · expected work.
 #[derive(Clone, Copy, Debug)]

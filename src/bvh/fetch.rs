@@ -1,8 +1,10 @@
 //! Bringing what a traversal comes to later nearer, while it is busy with what comes first: a tree that outgrows the
 //! caches is mostly waited for.
 
-use super::{Bvh, Child, Kind, Node};
-use prefetch_index::prefetch_index;
+use super::kind::{Child, Kind};
+use super::node::Node;
+use super::prefetch::lines;
+use super::tree::Bvh;
 
 impl Bvh {
     /// The children of a node whose bits are set, at least one.
@@ -30,15 +32,3 @@ impl Bvh {
         }
     }
 }
-
-/// All cache lines of what is so large and begins with these numbers.
-#[inline(always)]
-pub(super) fn lines<T>(bytes: usize, first: Option<&[T]>) {
-    let numbers = LINE / size_of::<T>();
-    if let Some(first) = first {
-        (0..bytes.div_ceil(LINE)).for_each(|line| prefetch_index(first, numbers * line));
-    }
-}
-
-/// Bytes of a cache line.
-const LINE: usize = 64;

@@ -1,7 +1,11 @@
 //! Wide nodes and blocks, in the order in which a traversal that goes left first comes by.
 
 use super::build::{Binary, Tree};
-use super::{BLOCK, Bvh, Child, Kind, Node, Source, WIDTH};
+use super::kind::{Child, Kind};
+use super::limits::{BLOCK, WIDTH};
+use super::node::Node;
+use super::source::Source;
+use super::tree::Bvh;
 use crate::math::NONE;
 
 /// A binary subtree: the place of its node, and of its first primitive in the order.

@@ -3,8 +3,11 @@
 use glam::{Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
+use super::aabb::Aabb;
 use super::aabb::Bounds;
-use super::{Aabb, Class, MOST_PRIMITIVES, Source};
+use super::kind::Class;
+use super::limits::MOST_PRIMITIVES;
+use super::source::Source;
 
 /// Set in every stored index, so that its bits, read as a number, are neither NaN nor subnormal and so cost no
 /// arithmetic more than others do.

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::{BLOCK_COST, Bvh, Child, Kind, NODE_COST, PRIMITIVE_COST};
+use super::kind::{Child, Kind};
+use super::limits::{BLOCK_COST, NODE_COST, PRIMITIVE_COST};
+use super::tree::Bvh;
 use crate::math::NONE;
 
 /// The size and quality of a tree.

@@ -19,7 +19,6 @@ mod verify;
 mod view;
 
 use clap::{Parser, Subcommand};
-use failure::Failure;
 use std::process::ExitCode;
 
 /// A CPU ray tracer that traces SIMD packets and checks its answers against a scalar reference

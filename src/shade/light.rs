@@ -1,7 +1,7 @@
 //! One light's share of a wave: its shadow rays, and what arrives.
 
 use super::spawn::{self, Offsets, ShadowRay};
-use super::surface::Surfaces;
+use super::surfaces::Surfaces;
 use super::wave::{Observer, Wave};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene, ShadowStart};

@@ -13,6 +13,7 @@ mod refract;
 mod sky;
 mod spawn;
 mod surface;
+mod surfaces;
 mod texture;
 mod wave;
 mod whitted;

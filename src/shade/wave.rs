@@ -1,7 +1,7 @@
 //! A wave: rays of a tile that are equally many reflections and refractions from the eye, packed together.
 
 use super::body::Inside;
-use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Plan;
 use crate::trace::Contents;
 
@@ -73,7 +73,8 @@ impl Wave {
             self.rays.len = to + L::WIDTH;
             return 0;
         }
-        let (mut o, mut d, mut w, mut tint) = ([[0.0; 8]; 3], [[0.0; 8]; 3], [0.0; 8], [[0.0; 8]; 3]);
+        let (mut o, mut d, mut w, mut tint) =
+            ([[0.0; KERNEL_LANES]; 3], [[0.0; KERNEL_LANES]; 3], [0.0; KERNEL_LANES], [[0.0; KERNEL_LANES]; 3]);
         leaving.origin.store(&mut o, 0);
         leaving.direction.store(&mut d, 0);
         leaving.weight.store(&mut w);

@@ -5,10 +5,10 @@ use super::body::{Inside, around};
 use super::light::Lighting;
 use super::queue::{Kind, Queue};
 use super::refract::{Split, split};
-use super::surface::{Surfaces, absorbed};
+use super::surfaces::{Surfaces, absorbed};
 use super::wave::{Leaving, Observer, Wave};
 use super::{sky, spawn};
-use crate::math::{BATCH, LaneMask, Lanes, Vec3};
+use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, Vec3};
 use crate::scene::{LEAST_WEIGHT, Scene};
 use crate::trace::{Ahead, Bounds, Contents, Everything, Intersect, Probe, Scratch, trace, with_contents};
 
@@ -101,6 +101,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
 
 /// [`trace_waves`] for a scene of such contents.
 fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
+    const { assert!(L::WIDTH <= KERNEL_LANES, "room for a packet's lanes is as wide as the widest kernel") };
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, queue, surfaces, lighting, scratch, .. } = work;
     for axis in radiance.iter_mut() {
@@ -274,7 +275,7 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
 /// What is left of the tints of packet `at` after a way without an end.
 #[inline(never)]
 fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
-    let mut absorption = [[0.0; 8]; 3];
+    let mut absorption = [[0.0; KERNEL_LANES]; 3];
     for (lane, inside) in wave.inside[at..at + L::WIDTH].iter().enumerate() {
         let sigma = scene.bodies[usize::from(inside.body())].absorption;
         (0..3).for_each(|axis| absorption[axis][lane] = sigma[axis]);
@@ -305,7 +306,7 @@ fn deposit<L: Lanes, C: Contents>(
         (Vec3::load(radiance, first) + rgb).store(radiance, first);
         return;
     }
-    let mut lanes = [[0.0; 8]; 3];
+    let mut lanes = [[0.0; KERNEL_LANES]; 3];
     rgb.store(&mut lanes, 0);
     let mut left = mask.bits();
     while left != 0 {

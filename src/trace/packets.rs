@@ -2,7 +2,7 @@
 
 use super::ahead::Ahead;
 use super::candidates::{Candidate, Form, List, Lists};
-use super::contents::Contents;
+use super::contents::{Contents, Everything};
 use super::packet::{Packet, Within};
 use super::query::{Found, Query};
 use crate::geometry::face::Aim;
@@ -141,7 +141,7 @@ fn each_named<F: Form, K: Primitives, L: Lanes, A: Found<L>>(
     found: &mut A,
 ) {
     if let Some(test) = kind.named() {
-        each::<F, K, K::Named, L, A, super::Everything>(test, &list.named, packet, found);
+        each::<F, K, K::Named, L, A, Everything>(test, &list.named, packet, found);
     }
 }
 

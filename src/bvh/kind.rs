@@ -1,0 +1,97 @@
+//! What children of a node are: blocks of a kind of primitive, or nodes.
+
+use super::limits::{INDEX_BITS, MOST_PRIMITIVES};
+use crate::kinds::for_each_kind;
+
+macro_rules! kinds {
+    (unbounded { $($unbounded:tt)* } bounded { $(($field:ident: $Storage:ident, $($rest:tt)*))* }) => {
+        /// What a child is.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Kind {
+            /// A node.
+            Node,
+            $(#[doc = concat!("A block of ", stringify!($field), ".")] $Storage,)*
+            /// Nothing.
+            Nothing,
+        }
+
+        impl Kind {
+            /// All kinds of blocks, in the order of their primitives' ids.
+            pub const BLOCKS: &[Self] = &[$(Self::$Storage),*];
+
+            /// As it is called.
+            pub fn name(self) -> &'static str {
+                match self {
+                    Self::Node => "nodes",
+                    $(Self::$Storage => stringify!($field),)*
+                    Self::Nothing => "nothing",
+                }
+            }
+
+            /// By the number in a [`Child`].
+            pub(super) const BY_NUMBER: [Self; 16] = {
+                let mut kinds = [Self::Nothing; 16];
+                kinds[0] = Self::Node;
+                $(kinds[Self::$Storage as usize] = Self::$Storage;)*
+                kinds
+            };
+        }
+    };
+}
+for_each_kind!(kinds);
+
+/// What primitives of a block have in common: a kind and a variant of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Class(pub(super) u16);
+
+impl Class {
+    /// Of a kind and the code of a variant, which is below 32.
+    pub fn new(kind: Kind, code: u8) -> Self {
+        Self((kind as u16) << 5 | u16::from(code & 31))
+    }
+
+    /// The kind.
+    pub fn kind(self) -> Kind {
+        Kind::BY_NUMBER[usize::from(self.0 >> 5) & 15]
+    }
+}
+
+/// A child of a node: what it is in the four highest bits, and an index in the others: of a node, or of a block of its
+/// kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Child(u32);
+
+impl Child {
+    /// No child. Its box is empty; a ray with an infinite margin may ask nonetheless, and finds nothing.
+    pub const EMPTY: Self = Self(u32::MAX);
+
+    /// The node or block `i` of its kind.
+    pub fn new(kind: Kind, i: usize) -> Self {
+        debug_assert!(i <= MOST_PRIMITIVES);
+        Self((kind as u32) << INDEX_BITS | i as u32)
+    }
+
+    /// What it is; [`Kind::Nothing`] for [`Child::EMPTY`].
+    #[inline(always)]
+    pub fn kind(self) -> Kind {
+        Kind::BY_NUMBER[(self.0 >> INDEX_BITS) as usize]
+    }
+
+    /// As a number.
+    #[inline(always)]
+    pub(crate) fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// From [`Child::bits`].
+    #[inline(always)]
+    pub(crate) fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
+    /// Which one of its kind.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        (self.0 & (u32::MAX >> (32 - INDEX_BITS))) as usize
+    }
+}

@@ -1,0 +1,304 @@
+//! Where the rays of a wave arrived: point, normal and material, packet by packet.
+
+use super::body::{Inside, Passage};
+use super::spawn::Offsets;
+use super::surface::shading_normal;
+use super::texture;
+use super::wave::Wave;
+use crate::geometry::{Primitives, Surface};
+use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, Vec3, exp2};
+use crate::scene::{Material, Pigment, Scene, with_primitive};
+use crate::trace::{Contents, Nearest};
+
+/// The surfaces that a wave's rays hit, column by column.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct Surfaces {
+    /// Hit points, on the surface.
+    pub point: [[f32; BATCH]; 3],
+    /// Unit normals for shading, turned against the rays.
+    pub normal: [[f32; BATCH]; 3],
+    /// Unit normals of the surfaces themselves, turned against the rays; written only where the plan has interpolated
+    /// normals, and else the same as `normal`.
+    pub geometric: [[f32; BATCH]; 3],
+    /// How far from the surface spawned rays start; below zero where nothing was hit.
+    pub lift: [f32; BATCH],
+    /// Diffuse colour times the ray's weight and what the mirror leaves of it.
+    pub color: [[f32; BATCH]; 3],
+    /// Weight of the mirror's ray.
+    pub mirror: [f32; BATCH],
+    /// Highlight strength, weighted as `color`; written only where the plan has highlights, as is the next.
+    pub specular: [f32; BATCH],
+    /// Phong exponent.
+    pub shininess: [f32; BATCH],
+    /// Whether any hit of the wave so far has a highlight.
+    pub glossy: bool,
+    /// What refraction needs; written only where the plan refracts.
+    pub bodies: Bodies,
+}
+
+/// The transparent side of the surfaces that a wave's rays hit.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// Weight of what is transmitted.
+    pub transmission: [f32; BATCH],
+    /// Above 0 where the material's fractions are constant.
+    pub additive: [f32; BATCH],
+    /// Index of refraction before the surface, divided by the one behind it.
+    pub eta: [f32; BATCH],
+    /// The bodies that refracted rays are in.
+    pub inside: [Inside; BATCH],
+    /// What absorption has left of the rays where they arrived; written only where the plan absorbs.
+    pub tint: [[f32; BATCH]; 3],
+}
+
+impl Default for Bodies {
+    fn default() -> Self {
+        Self {
+            transmission: [0.0; BATCH],
+            additive: [0.0; BATCH],
+            eta: [1.0; BATCH],
+            inside: [Inside::default(); BATCH],
+            tint: [[1.0; BATCH]; 3],
+        }
+    }
+}
+
+impl Default for Surfaces {
+    fn default() -> Self {
+        Self {
+            point: [[0.0; BATCH]; 3],
+            normal: [[0.0; BATCH]; 3],
+            geometric: [[0.0; BATCH]; 3],
+            lift: [-1.0; BATCH],
+            color: [[0.0; BATCH]; 3],
+            mirror: [0.0; BATCH],
+            specular: [0.0; BATCH],
+            shininess: [1.0; BATCH],
+            glossy: false,
+            bodies: Bodies::default(),
+        }
+    }
+}
+
+/// A packet's shading data while its primitives are gone through.
+#[derive(Clone, Copy)]
+struct Gathered<L> {
+    point: Vec3<L>,
+    normal: Vec3<L>,
+    reach: L,
+    color: Vec3<L>,
+    own: L,
+    mirror: L,
+    specular: L,
+    shininess: L,
+    glossy: bool,
+    /// For shading; of account only in a rich scene, as is all that follows, and `own`.
+    smooth: Vec3<L>,
+    transmission: L,
+    additive: L,
+}
+
+impl Surfaces {
+    /// Starts a wave: nothing hit yet.
+    pub fn start(&mut self, len: usize) {
+        self.glossy = false;
+        // Packets without an active ray are passed over later on; the last may be beyond the end.
+        self.lift[..len.next_multiple_of(KERNEL_LANES)].fill(-1.0);
+    }
+
+    /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`.
+    ///
+    /// Neighbouring rays mostly hit the same primitive, so each primitive in the packet is looked at once, for all
+    /// lanes, and selected where it was hit.
+    #[inline(always)]
+    pub fn find<L: Lanes, C: Contents>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
+        let direction = Vec3::<L>::load(&wave.rays.direction, at);
+        let p = direction.mul_add(hit.t, wave.rays.origins(at));
+        let mut ids = [0; KERNEL_LANES];
+        hit.primitive.store_ids(&mut ids);
+        let first = ids[hit.found.bits().trailing_zeros() as usize];
+        let mut g = gather::<L, C>(scene, first, p);
+        let mut left = hit.found.bits() & !L::id_mask(&ids, first).bits();
+        while left != 0 {
+            let id = ids[left.trailing_zeros() as usize];
+            let same = L::id_mask(&ids, id);
+            g = gather::<L, C>(scene, id, p).select(same, g);
+            left &= !same.bits();
+        }
+        let behind = g.normal.dot(direction).gt(L::zero());
+        let mut normal = (-g.normal).select(behind, g.normal);
+        if C::ALL && scene.plan.smooth {
+            normal.store(&mut self.geometric, at);
+            normal = (-g.smooth).select(behind, g.smooth);
+        }
+        g.point.store(&mut self.point, at);
+        normal.store(&mut self.normal, at);
+        let lift = Offsets::of(&scene.plan.methods).lift(g.point, g.reach);
+        lift.select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
+        let weight = L::load(&wave.weight[at..]);
+        let own = weight * if C::ALL { g.own } else { L::splat(1.0) - g.mirror };
+        (g.color * own).store(&mut self.color, at);
+        (weight * g.mirror).store(&mut self.mirror[at..]);
+        if scene.plan.highlights {
+            self.glossy |= g.glossy;
+            (g.specular * own).store(&mut self.specular[at..]);
+            g.shininess.store(&mut self.shininess[at..]);
+        }
+        if C::ALL && scene.plan.refracts {
+            (weight * g.transmission).store(&mut self.bodies.transmission[at..]);
+            g.additive.store(&mut self.bodies.additive[at..]);
+            self.bodies.pass::<L>(scene, wave, at, hit, !behind);
+        }
+    }
+
+    /// The unit normals of the surfaces themselves for packet `at`, turned against the rays.
+    #[inline(always)]
+    pub fn geometric_normal<L: Lanes, C: Contents>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        Vec3::load(if C::ALL && scene.plan.smooth { &self.geometric } else { &self.normal }, at)
+    }
+}
+
+impl Bodies {
+    /// Finds what lies before and behind the surfaces of packet `at`, and what absorption leaves of the rays up to
+    /// there.
+    #[inline(never)]
+    fn pass<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>, front: L::Mask) {
+        let mut ids = [0; KERNEL_LANES];
+        hit.primitive.store_ids(&mut ids);
+        let mut depth = [[0.0; KERNEL_LANES]; 3];
+        let mut left = hit.found.bits();
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let material = with_primitive!(scene, ids[lane], |kind, i| kind.material(i));
+            let body = scene.body_of[material as usize];
+            let passage = Passage::new(scene, wave.inside[at + lane], body, front.bits() >> lane & 1 == 1);
+            self.eta[at + lane] = passage.eta;
+            self.inside[at + lane] = passage.inside;
+            let absorption = scene.bodies[usize::from(passage.from)].absorption;
+            (0..3).for_each(|axis| depth[axis][lane] = absorption[axis]);
+        }
+        if scene.plan.absorbs {
+            let tint = Vec3::load(&wave.tint, at);
+            absorbed(tint, Vec3::load(&depth, 0), hit.t).store(&mut self.tint, at);
+        }
+    }
+}
+
+/// What is left of a tint after a way `t` through something of the given absorption: e^(−σ t) of it.
+#[inline(always)]
+pub fn absorbed<L: Lanes>(tint: Vec3<L>, absorption: Vec3<L>, t: L) -> Vec3<L> {
+    let per_unit = t * L::splat(-std::f32::consts::LOG2_E);
+    let through = |tint: L, sigma: L| tint * exp2(sigma * per_unit);
+    Vec3::new(through(tint.x, absorption.x), through(tint.y, absorption.y), through(tint.z, absorption.z))
+}
+
+impl<L: Lanes> Gathered<L> {
+    #[inline(always)]
+    fn select(self, mask: L::Mask, other: Self) -> Self {
+        Self {
+            point: self.point.select(mask, other.point),
+            normal: self.normal.select(mask, other.normal),
+            reach: self.reach.select(mask, other.reach),
+            color: self.color.select(mask, other.color),
+            own: self.own.select(mask, other.own),
+            mirror: self.mirror.select(mask, other.mirror),
+            specular: self.specular.select(mask, other.specular),
+            shininess: self.shininess.select(mask, other.shininess),
+            glossy: self.glossy | other.glossy,
+            smooth: self.smooth.select(mask, other.smooth),
+            transmission: self.transmission.select(mask, other.transmission),
+            additive: self.additive.select(mask, other.additive),
+        }
+    }
+}
+
+/// Primitive `id`'s surface and material at the points `p`.
+#[inline(always)]
+fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
+    let Painted { surface, material: m, color } = painted::<L, C>(scene, id, p);
+    let smooth = if C::ALL && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
+    Gathered {
+        point: surface.point,
+        normal: surface.normal,
+        reach: L::splat(surface.reach),
+        color,
+        own: L::splat(if m.additive { 1.0 } else { 1.0 - m.reflectance - m.transmission }),
+        mirror: L::splat(m.reflectance),
+        specular: L::splat(m.specular),
+        shininess: L::splat(m.shininess),
+        glossy: m.specular > 0.0,
+        smooth,
+        transmission: L::splat(m.transmission),
+        additive: L::splat(f32::from(u8::from(m.additive))),
+    }
+}
+
+/// A surface, what it is made of, and its colour.
+struct Painted<'a, L> {
+    surface: Surface<L>,
+    material: &'a Material,
+    color: Vec3<L>,
+}
+
+/// Primitive `id` near the points `p`; a plane, sphere or triangle unless the scene may hold more.
+#[inline(always)]
+fn painted<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Painted<'_, L> {
+    let first = &scene.first;
+    if C::ALL && id >= first.quads {
+        // Taken apart, so that nothing has to lie in memory for the others.
+        let Painted { surface, material, color } = rare_painted(scene, id, p);
+        Painted { surface, material, color }
+    } else if id >= first.triangles {
+        paint(scene, &scene.triangles, (id - first.triangles) as usize, p)
+    } else if id >= first.spheres {
+        paint(scene, &scene.spheres, (id - first.spheres) as usize, p)
+    } else {
+        paint(scene, &scene.planes, id as usize, p)
+    }
+}
+
+/// [`painted`] for any kind; apart, so as not to weigh on planes, spheres and triangles.
+#[inline(never)]
+fn rare_painted<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> Painted<'_, L> {
+    with_primitive!(scene, id, |kind, i| paint(scene, kind, i, p))
+}
+
+/// Primitive `i` of a kind near the points `p`.
+#[inline(always)]
+fn paint<'a, K: Primitives, L: Lanes>(scene: &'a Scene, kind: &K, i: usize, p: Vec3<L>) -> Painted<'a, L> {
+    let surface = kind.surface(i, p);
+    let material = &scene.materials[kind.material(i) as usize];
+    let color = match material.pigment {
+        Pigment::Color(color) => Vec3::splat(color),
+        Pigment::Checker { colors, size } => {
+            let odd = odd_cell(kind.checker(i, &surface) * L::splat(1.0 / size));
+            Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
+        }
+        Pigment::Texture { texture, size } => textured(scene, kind, i, surface, texture, 1.0 / size),
+    };
+    Painted { surface, material, color }
+}
+
+/// Where the checkerboard shows its second colour, for places in cells; see [`Pigment::Checker`].
+#[inline(always)]
+fn odd_cell<L: Lanes>(q: Vec3<L>) -> L::Mask {
+    let half = (q.x.floor() + q.y.floor() + q.z.floor()) * L::splat(0.5);
+    !half.floor().eq(half)
+}
+
+/// The colour of a texture.
+#[inline(never)]
+fn textured<K: Primitives, L: Lanes>(
+    scene: &Scene,
+    kind: &K,
+    i: usize,
+    surface: Surface<L>,
+    texture: usize,
+    per_size: f32,
+) -> Vec3<L> {
+    let [u, v] = kind.uv(i, &surface);
+    let per_size = L::splat(per_size);
+    texture::sample(&scene.textures[texture], u * per_size, v * per_size)
+}
