@@ -3,6 +3,7 @@
 use super::spawn::{self, Offsets, ShadowRay};
 use super::surfaces::Surfaces;
 use super::wave::{Observer, Wave};
+use crate::geometry::Primitives;
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene, ShadowStart};
 use crate::trace::{Ahead, Bounds, Contents, Extent, Occluded, Scratch, Span, trace};
@@ -40,6 +41,11 @@ impl Default for Lighting {
     }
 }
 
+/// Whether a query needs the bounds of its rays: for lists, and for what is in no tree.
+fn bounds_wanted(scene: &Scene) -> bool {
+    scene.bvh.is_none() || !scene.planes.is_empty()
+}
+
 impl Lighting {
     /// Starts a wave of `len` rays: ambient light only.
     pub fn start(&mut self, scene: &Scene, len: usize, glossy: bool) {
@@ -68,7 +74,7 @@ impl Lighting {
         };
         if count > 0 {
             observer.shadow(&self.rays);
-            self.collect::<L, C>(scene, &scene.lights[light], &bounds, wave, surfaces, scratch);
+            self.collect::<L, C>(scene, &scene.lights[light], bounds, wave, surfaces, scratch);
         }
         count
     }
@@ -81,17 +87,28 @@ impl Lighting {
         light: usize,
         wave: &Wave,
         surfaces: &Surfaces,
-    ) -> (u64, Bounds) {
+    ) -> (u64, Option<Bounds>) {
         let position = scene.lights[light].position;
         self.rays.set_common_origin(position);
         let mut directions = Extent::<L>::empty();
         let offsets = Offsets::of(&scene.plan.methods);
-        let count = self.fire::<L, C>(scene, wave, surfaces, -1.0, |_, at, point, normal, lift| {
-            let ray = spawn::shadow_from_light(&offsets, Vec3::splat(position), point, normal, lift);
-            directions.include(ray.direction, L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero()));
-            ray
-        });
-        (count, Bounds::new(Span::at(position), directions.span()))
+        let wanted = bounds_wanted(scene);
+        let count = self.fire::<L, C>(
+            scene,
+            wave,
+            surfaces,
+            -1.0,
+            #[inline(always)]
+            |_, at, point, normal, lift| {
+                let ray = spawn::shadow_from_light(&offsets, Vec3::splat(position), point, normal, lift);
+                if wanted {
+                    let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
+                    directions.include(ray.direction, active);
+                }
+                ray
+            },
+        );
+        (count, wanted.then(|| Bounds::new(Span::at(position), directions.span())))
     }
 
     /// Makes the same rays, from the points.
@@ -102,20 +119,30 @@ impl Lighting {
         light: usize,
         wave: &Wave,
         surfaces: &Surfaces,
-    ) -> (u64, Bounds) {
+    ) -> (u64, Option<Bounds>) {
         let position = Vec3::splat(scene.lights[light].position);
         self.rays.common_origin = false;
         let (mut origins, mut directions) = (Extent::<L>::empty(), Extent::<L>::empty());
         let offsets = Offsets::of(&scene.plan.methods);
-        let count = self.fire::<L, C>(scene, wave, surfaces, 1.0, |rays, at, point, normal, lift| {
-            let ray = spawn::shadow_from_point(&offsets, position, point, normal, lift);
-            let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
-            directions.include(ray.direction, active);
-            origins.include(ray.origin, active);
-            ray.origin.store(&mut rays.origin, at);
-            ray
-        });
-        (count, Bounds::new(origins.span(), directions.span()))
+        let wanted = bounds_wanted(scene);
+        let count = self.fire::<L, C>(
+            scene,
+            wave,
+            surfaces,
+            1.0,
+            #[inline(always)]
+            |rays, at, point, normal, lift| {
+                let ray = spawn::shadow_from_point(&offsets, position, point, normal, lift);
+                if wanted {
+                    let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
+                    directions.include(ray.direction, active);
+                    origins.include(ray.origin, active);
+                }
+                ray.origin.store(&mut rays.origin, at);
+                ray
+            },
+        );
+        (count, wanted.then(|| Bounds::new(origins.span(), directions.span())))
     }
 
     /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number. `towards` is 1 where they run to
@@ -163,7 +190,7 @@ impl Lighting {
         &mut self,
         scene: &Scene,
         light: &Light,
-        bounds: &Bounds,
+        bounds: Option<Bounds>,
         wave: &Wave,
         surfaces: &Surfaces,
         scratch: &mut Scratch,
@@ -175,7 +202,7 @@ impl Lighting {
             scene,
             rays,
             Ahead::NOTHING,
-            || Some(*bounds),
+            || bounds,
             scratch,
             #[inline(always)]
             |at, active, found| {

@@ -37,6 +37,8 @@ pub struct Group<'a, L, const MIXED: bool> {
 pub struct Sixteen {
     /// The first.
     pub at: usize,
+    /// Those that meet the block.
+    pub lanes: u32,
 }
 
 /// One ray, in every lane.
@@ -82,7 +84,17 @@ pub trait Leaf: Bounded {
     /// A block against sixteen rays.
     #[inline(always)]
     fn sixteen<Q: Query>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, rays: &Sixteen) -> bool {
-        packets::<Q, Self, _, f32x16>(walk, Standard, block, variant, used(block), rays.at..rays.at + f32x16::WIDTH)
+        let used = used(block);
+        if rays.lanes.count_ones() <= used.count_ones() {
+            // One ray against all primitives costs as much as one primitive against all rays.
+            let mut taken = false;
+            each(rays.lanes, |lane| {
+                let ray = Alone::new(walk, rays.at + lane);
+                taken |= eight::<Q, Self, _>(walk, Standard, block, variant, &ray);
+            });
+            return taken;
+        }
+        packets::<Q, Self, _, f32x16>(walk, Standard, block, variant, used, rays.at..rays.at + f32x16::WIDTH)
     }
 
     /// A block against one ray.
@@ -120,6 +132,15 @@ impl Visitor for Alone {
             None => K::alone::<Q>(walk, block, variant, self),
             Some(test) => eight_named::<Q, K>(walk, test, block, variant, self),
         }
+    }
+}
+
+/// Every bit that is set.
+#[inline(always)]
+pub fn each(mut bits: u32, mut take: impl FnMut(usize)) {
+    while bits != 0 {
+        take(bits.trailing_zeros() as usize);
+        bits &= bits - 1;
     }
 }
 

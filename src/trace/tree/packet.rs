@@ -3,7 +3,7 @@
 //! Ernst, Mark, *Combining Single and Packet-Ray Tracing for Arbitrary Ray Distributions on the Intel MIC Architecture*,
 //! 2012, §3.)
 
-use super::leaf::{Sixteen, block};
+use super::leaf::{Sixteen, block, each};
 use super::line::Lines;
 use super::stack::Part;
 use super::walk::Walk;
@@ -96,9 +96,8 @@ impl Walk<'_> {
             match part.child.kind() {
                 Kind::Node if few => each(part.lanes, |lane| self.single::<Q>(at + lane, part.child)),
                 Kind::Node => self.children::<MIXED>(packet, at, &part),
-                _ if few => each(part.lanes, |lane| self.block_alone::<Q>(at + lane, part.child)),
                 _ => {
-                    block::<Q, _>(self, part.child, &Sixteen { at });
+                    block::<Q, _>(self, part.child, &Sixteen { at, lanes: part.lanes });
                 }
             }
             loop {
@@ -131,14 +130,5 @@ impl Walk<'_> {
                 self.state.parts.sort_in(base, Part { enter, child, lanes });
             }
         }
-    }
-}
-
-/// Every bit that is set.
-#[inline(always)]
-fn each(mut bits: u32, mut take: impl FnMut(usize)) {
-    while bits != 0 {
-        take(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
     }
 }

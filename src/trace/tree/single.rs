@@ -47,11 +47,4 @@ impl Walk<'_> {
             }
         }
     }
-
-    /// The primitives of a block against ray `i`.
-    #[inline(always)]
-    pub fn block_alone<Q: Query>(&mut self, i: usize, child: Child) {
-        let ray = Alone::new(self, i);
-        block::<Q, _>(self, child, &ray);
-    }
 }

@@ -1,7 +1,7 @@
 //! Triangles of a block: what the test needs of the directions is known, and corners come in the order of the axes after
 //! the directions' largest.
 
-use super::leaf::{Alone, Group, Leaf, Sixteen, columns, met, take_eight};
+use super::leaf::{Alone, Group, Leaf, Sixteen, columns, each, met, take_eight};
 use super::walk::Walk;
 use crate::bvh::Block;
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, there};
@@ -10,6 +10,8 @@ use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
 use crate::trace::query::Query;
 use wide::{f32x8, f32x16};
 
+/// As many rays are tested one by one.
+const FEW: u32 = 5;
 /// Cache lines of the next batch that are fetched for every triangle.
 const LINES: usize = 8;
 
@@ -53,6 +55,14 @@ impl Leaf for Triangles {
 
     #[inline(always)]
     fn sixteen<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, rays: &Sixteen) -> bool {
+        if rays.lanes.count_ones() <= FEW {
+            let mut taken = false;
+            each(rays.lanes, |lane| {
+                let ray = Alone::new(walk, rays.at + lane);
+                taken |= Self::alone::<Q>(walk, block, sides, &ray);
+            });
+            return taken;
+        }
         let aim = Aim::new(Vec3::<f32x16>::load(&walk.rays.direction, rays.at));
         let origin = walk.rays.origins::<f32x16>(rays.at);
         let mut taken = false;
