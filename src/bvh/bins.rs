@@ -11,7 +11,7 @@ use super::aabb::Bounds;
 use super::refs::{Extent, Ref};
 
 /// The most bins an axis has.
-const MOST_BINS: usize = 32;
+const MAX_BINS: usize = 32;
 /// From here on a range is binned in parallel, in pieces of this size.
 const PIECE: usize = 1 << 15;
 
@@ -62,13 +62,13 @@ impl Split {
 /// The builder's working memory.
 #[derive(Clone)]
 pub(super) struct Bins {
-    bounds: [[Bounds; MOST_BINS]; 3],
-    count: [[u32; MOST_BINS]; 3],
+    bounds: [[Bounds; MAX_BINS]; 3],
+    count: [[u32; MAX_BINS]; 3],
 }
 
 impl Default for Bins {
     fn default() -> Self {
-        Self { bounds: [[Bounds::EMPTY; MOST_BINS]; 3], count: [[0; MOST_BINS]; 3] }
+        Self { bounds: [[Bounds::EMPTY; MAX_BINS]; 3], count: [[0; MAX_BINS]; 3] }
     }
 }
 
@@ -78,7 +78,7 @@ impl Bins {
         if extent.centers.min == extent.centers.max {
             return None;
         }
-        let bins = (4 + refs.len() / 16).min(MOST_BINS);
+        let bins = (4 + refs.len() / 16).min(MAX_BINS);
         let grid = Grid::new(&extent.centers, bins);
         self.clear(bins);
         if refs.len() >= 2 * PIECE && rayon::current_num_threads() > 1 {
@@ -118,7 +118,7 @@ impl Bins {
     fn put(&mut self, r: &Ref, grid: &Grid) {
         let (at, bounds) = (grid.bins(r.center()), r.bounds());
         for (axis, at) in [at.x, at.y, at.z].into_iter().enumerate() {
-            let bin = at.to_bits() as usize & (MOST_BINS - 1);
+            let bin = at.to_bits() as usize & (MAX_BINS - 1);
             self.bounds[axis][bin].add(&bounds);
             self.count[axis][bin] += 1;
         }
@@ -126,7 +126,7 @@ impl Bins {
 
     fn add(&mut self, other: &Self) {
         for axis in 0..3 {
-            for bin in 0..MOST_BINS {
+            for bin in 0..MAX_BINS {
                 self.bounds[axis][bin].add(&other.bounds[axis][bin]);
                 self.count[axis][bin] += other.count[axis][bin];
             }
@@ -141,7 +141,7 @@ impl Bins {
         let mut split: Option<(usize, usize)> = None;
         for axis in 0..3 {
             let (boxes, count) = (&self.bounds[axis], &self.count[axis]);
-            let mut right_cost = [0.0; MOST_BINS];
+            let mut right_cost = [0.0; MAX_BINS];
             let (mut side, mut n) = (Bounds::EMPTY, 0);
             for bin in (1..bins).rev() {
                 side.add(&boxes[bin]);

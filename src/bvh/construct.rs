@@ -3,15 +3,15 @@
 use super::aabb::Aabb;
 use super::block::Blocks;
 use super::kind::Child;
-use super::limits::{MOST_DEPTH, MOST_PRIMITIVES};
+use super::limits::{MAX_DEPTH, MAX_PRIMITIVES};
 use super::source::Source;
 use super::tree::Bvh;
 use super::{build, layout, refs};
 
 impl Bvh {
-    /// Builds the tree, in the caller's thread pool. Panics with more than [`MOST_PRIMITIVES`].
+    /// Builds the tree, in the caller's thread pool. Panics with more than [`MAX_PRIMITIVES`].
     pub fn build(source: &impl Source) -> Self {
-        assert!(source.len() <= MOST_PRIMITIVES, "too many primitives");
+        assert!(source.len() <= MAX_PRIMITIVES, "too many primitives");
         if source.is_empty() {
             return Self {
                 nodes: Vec::new(),
@@ -22,6 +22,6 @@ impl Bvh {
                 grain: 0.0,
             };
         }
-        layout::layout(source, &build::build(refs::collect(source), MOST_DEPTH))
+        layout::layout(source, &build::build(refs::collect(source), MAX_DEPTH))
     }
 }

@@ -1,6 +1,6 @@
 //! What children of a node are: blocks of a kind of primitive, or nodes.
 
-use super::limits::{INDEX_BITS, MOST_PRIMITIVES};
+use super::limits::{INDEX_BITS, MAX_PRIMITIVES};
 use crate::kinds::for_each_kind;
 
 macro_rules! kinds {
@@ -67,7 +67,7 @@ impl Child {
 
     /// The node or block `i` of its kind.
     pub fn new(kind: Kind, i: usize) -> Self {
-        debug_assert!(i <= MOST_PRIMITIVES);
+        debug_assert!(i <= MAX_PRIMITIVES);
         Self((kind as u32) << INDEX_BITS | i as u32)
     }
 

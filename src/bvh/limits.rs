@@ -8,7 +8,7 @@ pub const BLOCK: usize = 8;
 ///
 /// By design: the binary tree is split freely only while what is left could still be halved by count within this
 /// depth, and a wide node is at least one binary one.
-pub const MOST_DEPTH: usize = 64;
+pub const MAX_DEPTH: usize = 64;
 
 /// What it costs a ray to visit a node: the unit of the other costs.
 pub const NODE_COST: f64 = 1.0;
@@ -21,4 +21,4 @@ pub const PRIMITIVE_COST: f64 = 0.05;
 pub(super) const INDEX_BITS: u32 = 28;
 
 /// The most primitives a tree can hold: 2²⁸ − 1, so that every index fits a [`Child`](super::Child).
-pub const MOST_PRIMITIVES: usize = (1 << INDEX_BITS) - 1;
+pub const MAX_PRIMITIVES: usize = (1 << INDEX_BITS) - 1;

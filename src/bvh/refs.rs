@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::aabb::Aabb;
 use super::aabb::Bounds;
 use super::kind::Class;
-use super::limits::MOST_PRIMITIVES;
+use super::limits::MAX_PRIMITIVES;
 use super::source::Source;
 
 /// Set in every stored index, so that its bits, read as a number, are neither NaN nor subnormal and so cost no
@@ -88,7 +88,7 @@ pub(super) fn collect(source: &impl Source) -> Vec<Ref> {
             pieces
         });
         let pieces: Vec<_> = pieces.collect();
-        if pieces.len() <= MOST_PRIMITIVES {
+        if pieces.len() <= MAX_PRIMITIVES {
             return pieces;
         }
     }

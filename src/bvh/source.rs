@@ -7,7 +7,7 @@ use super::limits::BLOCK;
 
 /// What a tree is built from: primitives 0, 1 … `len` − 1.
 pub trait Source: Sync {
-    /// The number of primitives, at most [`MOST_PRIMITIVES`](super::MOST_PRIMITIVES).
+    /// The number of primitives, at most [`MAX_PRIMITIVES`](super::MAX_PRIMITIVES).
     fn len(&self) -> usize;
     /// Whether there is none.
     fn is_empty(&self) -> bool {

@@ -123,7 +123,7 @@ impl Check<'_> {
         let (bounds, depth) = check.child(bvh.root);
         assert_eq!(bounds, bvh.bounds);
         assert_eq!(depth, bvh.depth);
-        assert!(depth <= MOST_DEPTH, "{depth}");
+        assert!(depth <= MAX_DEPTH, "{depth}");
         assert!(check.seen.iter().all(|&n| n == 1), "every primitive is in exactly one block");
         assert_eq!(check.visited, bvh.nodes.len());
         assert_eq!(check.blocks, bvh.blocks.counts().iter().sum::<usize>());
@@ -294,7 +294,7 @@ fn depth_is_bounded_by_halving() {
     // Three of a size, sizes 32 times apart: a plane between bins separates the largest from all others.
     let sizes = (-28..24).flat_map(|e| [32f32.powi(e); 3]);
     let items = boxes(sizes.map(|size| [Vec3::X * size, Vec3::X * size]));
-    let free = build(collect(&items), MOST_DEPTH);
+    let free = build(collect(&items), MAX_DEPTH);
     let len = items.len();
     assert!(depth(&free, 0, len) > 12, "{}", depth(&free, 0, len));
     for levels in 8..12 {
@@ -355,7 +355,7 @@ fn least(tree: &Tree, source: &Items, node: usize, first: usize, children: usize
 fn wide_nodes_and_blocks_are_the_cheapest_there_are() {
     for len in [5, 9, 14, 18] {
         let items = mixed(len);
-        let tree = build(collect(&items), MOST_DEPTH);
+        let tree = build(collect(&items), MAX_DEPTH);
         let cost = least(&tree, &items, 0, 0, 1) / tree.nodes[0].bounds.area_f64();
         let sah = layout(&items, &tree).stats().sah;
         assert!((sah - cost).abs() <= 1e-12 * cost, "{len}: {sah} {cost}");
@@ -376,7 +376,7 @@ fn clusters_stay_apart() {
 
 #[test]
 fn children_are_what_they_were_made() {
-    for i in [0, 1, 12345, MOST_PRIMITIVES - 1] {
+    for i in [0, 1, 12345, MAX_PRIMITIVES - 1] {
         for kind in Kind::BLOCKS.iter().copied().chain([Kind::Node]) {
             let child = Child::new(kind, i);
             assert!(child.kind() == kind && child.index() == i && child != Child::EMPTY);

@@ -16,7 +16,7 @@ pub struct Bvh {
     pub root: Child,
     /// The box around everything.
     pub bounds: Aabb,
-    /// The most nodes on a way from the root to a block; at most [`MOST_DEPTH`](super::MOST_DEPTH).
+    /// The most nodes on a way from the root to a block; at most [`MAX_DEPTH`](super::MAX_DEPTH).
     pub depth: usize,
     /// How large blocks are: the mean of their largest extents, weighted by area, without those of an eighth of the
     /// whole and more; an eighth of the whole when there are no others.

@@ -9,7 +9,7 @@ use raypacket::scene;
 use std::ffi::OsString;
 
 /// It keeps all that every kernel and the reference answered, several hundred bytes a pixel.
-const MOST_PIXELS: usize = 1 << 22;
+const MAX_PIXELS: usize = 1 << 22;
 
 #[derive(clap::Args)]
 pub struct Args {
@@ -33,7 +33,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else {
         args.scenes.clone()
     };
-    let (pixels, most) = (args.size.width * args.size.height, MOST_PIXELS);
+    let (pixels, most) = (args.size.width * args.size.height, MAX_PIXELS);
     if pixels > most {
         return Err(Failure::input(format!("--size {}: verify compares at most {most} pixels", args.size)));
     }

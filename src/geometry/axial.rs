@@ -47,7 +47,7 @@ pub(super) fn bounds(axis: Vec3, discs: [(Vec3, f32); 2]) -> [Vec3; 2] {
 }
 
 /// The most pieces that a body is cut into.
-const MOST_PIECES: u32 = 16;
+const MAX_PIECES: u32 = 16;
 
 /// Into how many pieces a tree had best cut a body; `piece` is a box around piece k of n.
 ///
@@ -60,7 +60,7 @@ pub(super) fn pieces(piece: impl Fn(u32, u32) -> [Vec3; 2]) -> u32 {
         f64::from(n) * (size.x * size.y + size.y * size.z + size.z * size.x)
     };
     let (mut n, mut least) = (1, area(1));
-    while n < MOST_PIECES {
+    while n < MAX_PIECES {
         let area = area(2 * n);
         if area.is_nan() || area > least * (5.0 / 6.0) {
             break;

@@ -27,7 +27,7 @@
 use super::axial::{self, Crossing, Hull, slab};
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3, angle, three};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map3};
 
 /// The least height, in differences of the radii: far below ε, and its square a normal number.
 const FLATTEST: f64 = 1.0 / (1u64 << 40) as f64;
@@ -169,7 +169,7 @@ impl Cones {
     #[inline(always)]
     fn local<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Local<L> {
         let q = point - Vec3::splat(self.narrow(i));
-        let [x, y, h] = three(self.axes[i], |a| Vec3::splat(a).dot(q));
+        let [x, y, h] = map3(self.axes[i], |a| Vec3::splat(a).dot(q));
         let rho = x.mul_add(x, y * y).sqrt();
         let [cos, sin] = self.numbers[i].turn;
         let inner = L::splat(self.numbers[i].radii[0] * self.numbers[i].unit);
@@ -272,7 +272,7 @@ impl Primitives for Cones {
     fn seen<L: Lanes>(cone: &ConeShape<L>, _: Hull, origin: Vec3<L>) -> SeenCone<L> {
         let ConeShape { narrow, axes, turn: [_, sin], radii, length, scale, unit, .. } = *cone;
         let f = (origin - narrow) * scale;
-        let [x, y, h] = three(axes, |a| a.dot(f));
+        let [x, y, h] = map3(axes, |a| a.dot(f));
         let z = h.mul_add(sin, radii[0]);
         // Not fused: what is rounded alike cancels on the surface.
         let c = x * x + y * y - z * z;
@@ -290,7 +290,7 @@ impl Primitives for Cones {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let Local { x, y, h, rho, outside, beyond, cap, wide } = self.local(i, point);
-        let [t, b, axis] = three(self.axes[i], Vec3::splat);
+        let [t, b, axis] = map3(self.axes[i], Vec3::splat);
         let [cos, sin] = self.numbers[i].turn.map(L::splat);
         // At the tip any direction is as good.
         let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
@@ -361,7 +361,7 @@ impl<L: Lanes> Line<L> {
         let (mut t, mut last) = (t, size(self.p));
         // The first root may be off by some parts in a hundred, the second by as much of that.
         for _ in 0..2 {
-            let p = three([0, 1, 2], |k| self.q[k].mul_add(t, self.p[k]));
+            let p = map3([0, 1, 2], |k| self.q[k].mul_add(t, self.p[k]));
             let near = (size(p) * L::splat(16.0)).lt(last);
             if !near.any() {
                 break;
@@ -394,7 +394,7 @@ fn expanded<L: Lanes>([px, py, pz]: [L; 3], [qx, qy, qz]: [L; 3]) -> L {
 /// See the module's text.
 #[inline(always)]
 pub fn stable<L: Lanes>(seen: &SeenCone<L>, direction: Vec3<L>, hull: Hull, t_min: L, t_max: L) -> LaneHits<L> {
-    let [x, y, along] = three(seen.axes, |a| a.dot(direction));
+    let [x, y, along] = map3(seen.axes, |a| a.dot(direction));
     let (p, q) = (seen.p, [x, y, along * seen.sin]);
     let line = Line { p, q, a: product(q, q), b: product(p, q), c: seen.c };
     let discriminant = line.discriminant();

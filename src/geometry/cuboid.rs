@@ -19,7 +19,7 @@ pub use super::face::Aim;
 use super::frame::along;
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
-use crate::math::{LaneMask, Lanes, Vec3, three};
+use crate::math::{LaneMask, Lanes, Vec3, map3};
 use glam::DMat3;
 
 /// ε, the unit roundoff.
@@ -118,13 +118,13 @@ impl Cuboids {
     fn own<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [Vec3<L>; 2] {
         let [center, half] = self.center_and_half(i).map(Vec3::splat);
         let q = point - center;
-        [self.axes[i].map_or(q, |axes| along(&three(axes, Vec3::splat), q)), half]
+        [self.axes[i].map_or(q, |axes| along(&map3(axes, Vec3::splat), q)), half]
     }
 
     /// A surface's normal in the box's own axes, up to rounding.
     #[inline(always)]
     fn own_normal<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        self.axes[i].map_or(surface.normal, |axes| along(&three(axes, Vec3::splat), surface.normal))
+        self.axes[i].map_or(surface.normal, |axes| along(&map3(axes, Vec3::splat), surface.normal))
     }
 }
 
@@ -177,7 +177,7 @@ impl Primitives for Cuboids {
     fn shape(&self, i: usize) -> CuboidShape<f32> {
         let [min, max] = self.corners(i).map(Vec3::from);
         let axes = self.axes[i].unwrap_or([glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z]);
-        CuboidShape { min, max, axes: three(axes, Vec3::from), bounds: self.boxes[i].map(Vec3::from) }
+        CuboidShape { min, max, axes: map3(axes, Vec3::from), bounds: self.boxes[i].map(Vec3::from) }
     }
     #[inline(always)]
     fn variant(&self, i: usize) -> Turned {

@@ -22,7 +22,7 @@
 use super::axial::{self, Crossing, Hull, slab};
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3, angle, three};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map3};
 
 /// Squared sine of the angle to the axis below which a ray is parallel to it: 2⁻⁶⁰.
 const PARALLEL: f32 = 1.0 / (1u64 << 60) as f32;
@@ -117,7 +117,7 @@ impl Cylinders {
     #[inline(always)]
     fn local<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [L; 3] {
         let q = point - Vec3::splat(self.base(i));
-        three(self.axes[i], |a| Vec3::splat(a).dot(q))
+        map3(self.axes[i], |a| Vec3::splat(a).dot(q))
     }
 
     /// Where a point with these coordinates is nearer to an end of cylinder `i` than to its side.
@@ -172,7 +172,7 @@ impl Primitives for Cylinders {
     fn shape(&self, i: usize) -> CylinderShape<f32> {
         CylinderShape {
             base: self.base(i).into(),
-            axes: three(self.axes[i], Vec3::from),
+            axes: map3(self.axes[i], Vec3::from),
             radius: self.radius[i],
             length: self.length[i],
             bounds: self.boxes[i].map(Vec3::from),
@@ -194,7 +194,7 @@ impl Primitives for Cylinders {
     fn seen<L: Lanes>(cylinder: &CylinderShape<L>, _: Hull, origin: Vec3<L>) -> SeenCylinder<L> {
         let CylinderShape { base, axes, radius, length, .. } = *cylinder;
         let f = origin - base;
-        let [x, y, h] = three(axes, |a| a.dot(f));
+        let [x, y, h] = map3(axes, |a| a.dot(f));
         let r2 = radius * radius;
         let c = x.mul_add(x, y * y) - r2;
         SeenCylinder { axes, p: [x, y], c, radius, r2, ends: [-h, length - h] }
@@ -211,7 +211,7 @@ impl Primitives for Cylinders {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let [x, y, h] = self.local(i, point);
-        let [t, b, axis] = three(self.axes[i], Vec3::splat);
+        let [t, b, axis] = map3(self.axes[i], Vec3::splat);
         let rho = x.mul_add(x, y * y).sqrt();
         // On the axis itself, where rounding is as large as the radius, any direction is as good.
         let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
@@ -241,7 +241,7 @@ impl Primitives for Cylinders {
 #[inline(always)]
 pub fn stable<L: Lanes>(seen: &SeenCylinder<L>, direction: Vec3<L>, hull: Hull, t_min: L, t_max: L) -> LaneHits<L> {
     let SeenCylinder { axes, p: [px, py], c, radius, r2, ends: [low, high] } = *seen;
-    let [x, y, along] = three(axes, |a| a.dot(direction));
+    let [x, y, along] = map3(axes, |a| a.dot(direction));
     let a = x.mul_add(x, y * y);
     // Most rays pass so far outside that no root and no quotient is needed to see it, whatever rounding does.
     let aside = py.neg_mul_add(x, px * y);

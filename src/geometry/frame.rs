@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::math::{Lanes, Vec3 as Lane3, three};
+use crate::math::{Lanes, Vec3 as Lane3, map3};
 
 /// Two unit axes T and B = T × n in the surface with unit normal `n`, for patterns.
 ///
@@ -18,7 +18,7 @@ pub fn frame(n: Vec3) -> [Vec3; 2] {
 /// A vector's coordinates along three axes.
 #[inline(always)]
 pub(super) fn along<L: Lanes>(axes: &[Lane3<L>; 3], v: Lane3<L>) -> Lane3<L> {
-    let [x, y, z] = three(*axes, |axis| axis.dot(v));
+    let [x, y, z] = map3(*axes, |axis| axis.dot(v));
     Lane3::new(x, y, z)
 }
 

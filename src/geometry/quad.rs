@@ -6,7 +6,7 @@
 
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, columns, flat};
-use crate::math::{LaneMask, Lanes, Vec3, three};
+use crate::math::{LaneMask, Lanes, Vec3, map3};
 
 /// Quads, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,7 +85,7 @@ impl Quads {
     /// Corner and edges of quad `i`.
     #[inline(always)]
     pub fn corner_and_edges(&self, i: usize) -> [glam::Vec3; 3] {
-        three([&self.corner, &self.u, &self.v], |c| columns::at(c, i))
+        map3([&self.corner, &self.u, &self.v], |c| columns::at(c, i))
     }
 }
 
@@ -117,7 +117,7 @@ impl Primitives for Quads {
     }
     #[inline(always)]
     fn shape(&self, i: usize) -> QuadShape<f32> {
-        let [corner, u, v] = three(self.corner_and_edges(i), Vec3::from);
+        let [corner, u, v] = map3(self.corner_and_edges(i), Vec3::from);
         QuadShape { corner, u, v, bounds: self.boxes[i].map(Vec3::from) }
     }
     fn variant(&self, _: usize) {}

@@ -18,7 +18,7 @@
 use super::methods::SphereMethod;
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test};
-use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3, angle};
+use crate::math::{LaneMask, Lanes, MAX_LANES, Vec3, angle};
 
 /// Spheres, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -285,7 +285,7 @@ pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
 #[inline(never)]
 pub fn double<L: Lanes>(seen: &ExactSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let lanes = |v: L| {
-        let mut lanes = [0.0; MOST_LANES];
+        let mut lanes = [0.0; MAX_LANES];
         v.store(&mut lanes);
         lanes.map(f64::from)
     };
@@ -293,7 +293,7 @@ pub fn double<L: Lanes>(seen: &ExactSphere<L>, direction: Vec3<L>, t_min: L, t_m
     let f = [(seen.f.x, lost.x), (seen.f.y, lost.y), (seen.f.z, lost.z)].map(|(f, lost)| (lanes(f), lanes(lost)));
     let d = [direction.x, direction.y, direction.z].map(lanes);
     let (radius, t_min) = (lanes(radius), lanes(t_min));
-    let mut t = [f32::NAN; MOST_LANES];
+    let mut t = [f32::NAN; MAX_LANES];
     for i in 0..L::WIDTH {
         let f = [0, 1, 2].map(|axis| f[axis].0[i] + f[axis].1[i]);
         let d = [0, 1, 2].map(|axis| d[axis][i]);

@@ -46,7 +46,7 @@ use super::methods::TorusMethod;
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Surface, Test, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
-use crate::math::{LaneMask, Lanes, Vec3, angle, powf, three};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map3, powf};
 use glam::DVec3;
 
 /// ε, the unit roundoff.
@@ -156,7 +156,7 @@ impl Tori {
     /// The point of the tube's middle nearest to `point`, from the centre, and the vector from there to `point`.
     #[inline(always)]
     fn spine<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [Vec3<L>; 2] {
-        let [t, _, a] = three(self.axes[i], Vec3::<L>::splat);
+        let [t, _, a] = map3(self.axes[i], Vec3::<L>::splat);
         let q = point - Vec3::splat(self.center(i));
         let across = a.mul_add(-a.dot(q), q);
         let rho2 = across.dot(across);
@@ -199,7 +199,7 @@ impl Primitives for Tori {
         let (major, minor) = (self.major[i], self.minor[i]);
         TorusShape {
             center: self.center(i).into(),
-            axes: three(self.axes[i], Vec3::from),
+            axes: map3(self.axes[i], Vec3::from),
             major,
             kappa: minor / major,
             near: self.near[i],
@@ -252,7 +252,7 @@ impl Primitives for Tori {
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        along(&three(self.axes[i], Vec3::splat), surface.point - Vec3::splat(self.center(i)))
+        along(&map3(self.axes[i], Vec3::splat), surface.point - Vec3::splat(self.center(i)))
     }
 }
 

@@ -25,7 +25,7 @@ use super::face::{self, between};
 use super::methods::TriangleMethod;
 use super::numbers::numbers;
 use super::{Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
-use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
+use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 
 /// Triangles, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,7 +69,7 @@ impl<T: Copy> Attribute<T> {
     #[inline(always)]
     fn at(&self, i: usize) -> Option<[T; 3]> {
         let corners = self.corners.get(i).filter(|c| c[0] != NONE)?;
-        Some(three(*corners, |c| self.values[c as usize]))
+        Some(map3(*corners, |c| self.values[c as usize]))
     }
 }
 
@@ -114,7 +114,7 @@ impl<L: Lanes> TriangleShape<L> {
     /// a, b, c.
     #[inline(always)]
     pub fn corners(&self) -> [Vec3<L>; 3] {
-        three(self.corners, |[x, y, z]| Vec3::new(x, y, z))
+        map3(self.corners, |[x, y, z]| Vec3::new(x, y, z))
     }
 }
 
@@ -205,7 +205,7 @@ impl Triangles {
     #[inline(always)]
     pub fn corners(&self, i: usize) -> [glam::Vec3; 3] {
         let [a, b, c] = &self.corners;
-        three([a, b, c], |corner| columns::at(corner, i))
+        map3([a, b, c], |corner| columns::at(corner, i))
     }
 
     /// The first corner and the edges from there to the others.
@@ -227,7 +227,7 @@ impl Triangles {
     pub fn shading_normal<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
         let Some(normals) = self.normals.at(i) else { return surface.normal };
         let [u, v] = self.barycentric(i, surface.point);
-        let [a, b, c] = three(normals, Vec3::splat);
+        let [a, b, c] = map3(normals, Vec3::splat);
         let n = c.mul_add(v, b.mul_add(u, a * (L::splat(1.0) - u - v)));
         let length2 = n.dot(n);
         let n = n * (L::splat(1.0) / length2.sqrt());
@@ -262,7 +262,7 @@ impl Primitives for Triangles {
     }
     #[inline(always)]
     fn shape(&self, i: usize) -> TriangleShape<f32> {
-        TriangleShape { corners: three(self.corners(i), |corner| corner.to_array()) }
+        TriangleShape { corners: map3(self.corners(i), |corner| corner.to_array()) }
     }
     #[inline(always)]
     fn variant(&self, i: usize) -> Sides {
@@ -279,7 +279,7 @@ impl Primitives for Triangles {
     #[inline(always)]
     fn seen<L: Lanes>(triangle: &TriangleShape<L>, _: Sides, origin: Vec3<L>) -> SeenTriangle<L> {
         let n = normal(triangle.corners());
-        let corners = three(triangle.corners(), |corner| corner - origin);
+        let corners = map3(triangle.corners(), |corner| corner - origin);
         SeenTriangle { corners, n, height: corners[0].dot(n) }
     }
     #[inline(always)]
@@ -352,7 +352,7 @@ fn one_sided<L: Lanes>(hit: LaneHits<L>, sides: Sides, n: Vec3<L>, aim: &Aim<L>)
     if sides == Sides::Both {
         return Some((t, inside));
     }
-    let inside = inside & there(sides, n.dot(aim.direction));
+    let inside = inside & shown(sides, n.dot(aim.direction));
     inside.any().then_some((t, inside))
 }
 
@@ -377,10 +377,10 @@ pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_ma
 #[inline(always)]
 pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask> {
     let ordered = match aim.major {
-        Some(0) => three(*corners, |c| [c.y, c.z, c.x]),
-        Some(1) => three(*corners, |c| [c.z, c.x, c.y]),
-        Some(_) => three(*corners, |c| [c.x, c.y, c.z]),
-        None => three(*corners, |c| in_order(c, aim.on)),
+        Some(0) => map3(*corners, |c| [c.y, c.z, c.x]),
+        Some(1) => map3(*corners, |c| [c.z, c.x, c.y]),
+        Some(_) => map3(*corners, |c| [c.x, c.y, c.z]),
+        None => map3(*corners, |c| in_order(c, aim.on)),
     };
     covers_ordered(&ordered, aim.shear)
 }
@@ -388,7 +388,7 @@ pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask>
 /// The same for corners whose components come in the order of those after the directions' largest, and that.
 #[inline(always)]
 pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Option<L::Mask> {
-    let [[ax, ay], [bx, by], [cx, cy]] = three(*corners, |[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
+    let [[ax, ay], [bx, by], [cx, cy]] = map3(*corners, |[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
     // Not fused: a product that is not rounded would be compared with one that is.
     let (u, v, w) = (cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
@@ -455,7 +455,7 @@ fn within<L: Lanes>(low: Vec3<L>, high: Vec3<L>, direction: Vec3<L>, t: L) -> (L
 
 /// Where a triangle is there for rays that run `along` N: from the front against it.
 #[inline(always)]
-pub fn there<L: Lanes>(sides: Sides, along: L) -> L::Mask {
+pub fn shown<L: Lanes>(sides: Sides, along: L) -> L::Mask {
     match sides {
         Sides::Both => L::zero().le(L::zero()),
         Sides::Front => along.lt(L::zero()),
@@ -501,7 +501,7 @@ fn planes<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> [Vec3<L>; 3] {
 /// See the module's text.
 #[inline(always)]
 pub fn edge_planes<L: Lanes>(seen: &SeenEdgePlanes<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-    let [u, v, w] = three(seen.planes, |plane| plane.dot(direction));
+    let [u, v, w] = map3(seen.planes, |plane| plane.dot(direction));
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
     let t = seen.height / seen.n.dot(direction);
     let inside = (least.ge(L::zero()) | most.le(L::zero())) & t.gt(t_min) & t.lt(t_max);

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use prefetch_index::prefetch_index;
 
-use super::{Lanes, MOST_LANES, Vec3 as Lane3};
+use super::{Lanes, MAX_LANES, Vec3 as Lane3};
 
 /// The most rays a batch holds: a tile of 16 × 16 pixels, or any other rays that belong together.
 pub const BATCH: usize = 256;
@@ -72,7 +72,7 @@ impl RayBatch {
     /// Keeps the first `len` rays, or makes room for as many. Panics when that is more than [`BATCH`].
     pub fn set_len(&mut self, len: usize) {
         // A packet may have written beyond the end.
-        let end = self.len.next_multiple_of(MOST_LANES).max(len);
+        let end = self.len.next_multiple_of(MAX_LANES).max(len);
         self.t_max[len..end].fill(-1.0);
         self.len = len;
     }

@@ -136,7 +136,7 @@ fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
 pub const KERNEL_LANES: usize = 8;
 
 /// The widest of the types: columns that are loaded from any place are padded to a multiple of it.
-pub const MOST_LANES: usize = 16;
+pub const MAX_LANES: usize = 16;
 
 impl LaneMask for bool {
     #[inline(always)]

@@ -12,13 +12,13 @@ mod vec3;
 
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::isa;
-pub use lanes::{KERNEL_LANES, LaneMask, Lanes, MOST_LANES};
+pub use lanes::{KERNEL_LANES, LaneMask, Lanes, MAX_LANES};
 pub use power::{exp2, powf};
 pub use srgb::linear_of_bytes;
 pub use vec3::{Vec3, inverse_root};
 
-/// [`array::map`] of three, always inlined: the library's own is a call where the numbers are wide.
+/// [`array::map`] of map3, always inlined: the library's own is a call where the numbers are wide.
 #[inline(always)]
-pub(crate) fn three<T, U>([a, b, c]: [T; 3], mut of: impl FnMut(T) -> U) -> [U; 3] {
+pub(crate) fn map3<T, U>([a, b, c]: [T; 3], mut of: impl FnMut(T) -> U) -> [U; 3] {
     [of(a), of(b), of(c)]
 }

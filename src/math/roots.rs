@@ -7,7 +7,7 @@ use super::{LaneMask, Lanes};
 /// Every step of Newton's method on a convex function divides value · slope by 4 or more, as
 /// f(x₁) / f(x₀) + f′(x₁) / f′(x₀) ≤ 1. From 1 that is 2⁻⁹⁶ after so many, whose root is 2⁻⁴⁸: the value or the slope
 /// is far below ε.
-const MOST_STEPS: usize = 48;
+const MAX_STEPS: usize = 48;
 
 /// A function's value and derivative at one place, the latter as a quotient, so that a step divides but once.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ pub fn first_root<L: Lanes>(
     // A convex function that is not above zero at the left end is zero there, but for rounding.
     let mut found = below & convex;
     let mut active = live & ((convex & at.value.gt(zero) & at.rise.lt(zero)) | (!convex & below));
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let step = -(at.value * at.run) / at.rise;
         // Rising at its right end a concave function is zero there, but for rounding.
         let close = active & (step.abs().le(at.near) | at.rise.ge(zero));

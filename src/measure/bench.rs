@@ -20,7 +20,7 @@ const RUNS: std::ops::RangeInclusive<usize> = 3..=31;
 const BUDGET: Duration = Duration::from_secs(4);
 
 /// Rays traced between two looks at the clock, at the least.
-const LEAST_RAYS: u64 = 500_000;
+const MIN_RAYS: u64 = 500_000;
 
 /// What to measure.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,7 +154,7 @@ fn time_query(scene: &Scene, query: &str, shadow: bool, batches: &[RayBatch]) ->
     let mut answers: Vec<Answers> = Kernel::ALL.iter().map(|_| Answers::new(shadow, batches.len())).collect();
     // A short set is traced over and over, so that the clock is not what is measured.
     let all: u64 = batches.iter().map(|b| b.len as u64).sum();
-    let passes = (LEAST_RAYS / all.max(1)).max(1);
+    let passes = (MIN_RAYS / all.max(1)).max(1);
     let times = take_turns(|kernel| answers[kernel as usize].fill(scene, kernel, batches, passes));
     let same = answers.windows(2).all(|pair| pair[0] == pair[1]);
     let measured = Kernel::ALL.iter().zip(times).zip(&answers).map(|((kernel, times), answers)| {

@@ -1,6 +1,6 @@
 //! Whitted shading: the light that arrives along a ray.
 use super::{Tracer, texture, turned};
-use crate::scene::{LEAST_WEIGHT, Light, Material, Pigment};
+use crate::scene::{Light, MIN_WEIGHT, Material, Pigment};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -67,7 +67,7 @@ struct Passage {
 }
 
 /// The most surfaces that are looked through to find the bodies around a point.
-const MOST_SURFACES: usize = 1000;
+const MAX_SURFACES: usize = 1000;
 
 impl Tracer {
     /// The linear radiance seen from `origin` along the unit `direction`.
@@ -102,7 +102,7 @@ impl Tracer {
             let (f, refracted) = dielectric(direction, &point, passage.eta, material.additive);
             let next = |part: f64, origin: DVec3, direction: Option<DVec3>, inside: &[usize]| {
                 let (weight, tint) = (way.weight * part, way.tint * left);
-                let follow = weight > 0.0 && (!self.refracts || weight * tint.max_element() >= f64::from(LEAST_WEIGHT));
+                let follow = weight > 0.0 && (!self.refracts || weight * tint.max_element() >= f64::from(MIN_WEIGHT));
                 let next = Way { depth: way.depth + 1, weight, tint, inside, ..way };
                 direction.filter(|_| follow).map_or(DVec3::ZERO, |d| part * self.radiance_along(origin, d, next))
             };
@@ -153,7 +153,7 @@ impl Tracer {
         let direction = DVec3::new(1.0, 3.0, 2.0).normalize();
         let mut entered = Vec::new();
         let mut origin = point;
-        for _ in 0..MOST_SURFACES {
+        for _ in 0..MAX_SURFACES {
             let Some(hit) = self.intersect(origin, direction, f64::INFINITY) else { break };
             let primitive = &self.primitives[hit.primitive as usize];
             let place = primitive.project(origin + hit.t * direction);

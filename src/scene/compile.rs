@@ -61,10 +61,10 @@ macro_rules! scene {
             pub build_time: Duration,
             /// Materials, by index.
             pub materials: Vec<Material>,
-            /// Transparent bodies by number; 0 is what is around them all.
-            pub bodies: Vec<Body>,
-            /// The number of the body that a material makes, by its index; 0 for one that is not transparent.
-            pub body_of: Vec<u16>,
+            /// Transparent media by number; 0 is what is around them all.
+            pub media: Vec<Medium>,
+            /// The number of the medium that a material makes, by its index; 0 for one that is not transparent.
+            pub medium_of: Vec<u16>,
             /// Texture images, by index.
             pub textures: Vec<Arc<Texture>>,
             /// Point lights.
@@ -100,7 +100,7 @@ macro_rules! scene {
                 $($(boxes.extend((0..$storage.len()).map_while(|i| super::$Kind::bounds(&$storage, i)));)*)*
                 let plan = Plan::of(description, &boxes, options);
                 $($(super::$Kind::set_methods(&mut $storage, &plan.methods);)*)*
-                let (bodies, body_of) = bodies(&description.materials);
+                let (media, medium_of) = media(&description.materials);
                 Self {
                     $($($storage,)*)*
                     first,
@@ -108,8 +108,8 @@ macro_rules! scene {
                     bvh: None,
                     build_time: Duration::ZERO,
                     materials: description.materials.clone(),
-                    bodies,
-                    body_of,
+                    media,
+                    medium_of,
                     textures: description.textures.clone(),
                     lights: description.lights.clone(),
                     sky: description.sky.clone(),
@@ -122,9 +122,9 @@ macro_rules! scene {
 }
 for_each_kind! { scene }
 
-/// What a transparent body is filled with.
+/// The substance of a transparent solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct Medium {
     /// Index of refraction.
     pub ior: f32,
     /// Absorption a world unit, by channel.
@@ -190,16 +190,16 @@ fn stored<K: Kind>(elements: &[K]) -> K::Storage {
     storage
 }
 
-/// The transparent bodies, and which material makes which ([`Scene::body_of`]).
-fn bodies(materials: &[Material]) -> (Vec<Body>, Vec<u16>) {
-    let mut bodies = vec![Body { ior: 1.0, absorption: Vec3::ZERO }];
+/// The media of transparent materials, and which material makes which ([`Scene::medium_of`]).
+fn media(materials: &[Material]) -> (Vec<Medium>, Vec<u16>) {
+    let mut media = vec![Medium { ior: 1.0, absorption: Vec3::ZERO }];
     let number = |m: &Material| {
         if m.transmission <= 0.0 {
             return 0;
         }
-        bodies.push(Body { ior: m.ior, absorption: m.absorption });
-        (bodies.len() - 1) as u16
+        media.push(Medium { ior: m.ior, absorption: m.absorption });
+        (media.len() - 1) as u16
     };
-    let body_of = materials.iter().map(number).collect();
-    (bodies, body_of)
+    let medium_of = materials.iter().map(number).collect();
+    (media, medium_of)
 }

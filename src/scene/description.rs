@@ -64,7 +64,7 @@ impl Default for CameraDescription {
 
 /// In a scene where anything transmits, rays that count for less than this in their pixel are not followed: 2⁻¹⁴, a
 /// fifth of a displayed step in black.
-pub const LEAST_WEIGHT: f32 = 1.0 / 16384.0;
+pub const MIN_WEIGHT: f32 = 1.0 / 16384.0;
 
 /// Settings that concern the scene as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]

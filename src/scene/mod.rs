@@ -14,7 +14,7 @@ mod rules;
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
-pub use compile::{Body, CompileOptions, First, Scene, compile, compile_with};
+pub use compile::{CompileOptions, First, Medium, Scene, compile, compile_with};
 pub use description::*;
 pub use kinds::*;
 pub use plan::{Plan, ShadowStart, Structure, Tested};

@@ -6,7 +6,7 @@ use super::wave::{Observer, Wave};
 use crate::geometry::Primitives;
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
 use crate::scene::{Light, Scene, ShadowStart};
-use crate::trace::{Ahead, Bounds, Contents, Extent, Occluded, Scratch, Span, trace};
+use crate::trace::{Bounds, Contents, Extent, Occluded, Prefetch, Scratch, Span, trace};
 
 /// 1 / (4 π).
 const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
@@ -201,7 +201,7 @@ impl Lighting {
         trace::<Occluded, L, C>(
             scene,
             rays,
-            Ahead::NOTHING,
+            Prefetch::NOTHING,
             || bounds,
             scratch,
             #[inline(always)]

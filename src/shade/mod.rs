@@ -2,11 +2,11 @@
 //!
 //! A point's light is Σ E (color · n·l + specular · (r·l)^shininess) over the lights it sees, with
 //! E = power / (4 π r²), and ambient · color; a mirror of fraction ρ shows (1 − ρ) of that and ρ of what it
-//! reflects (Whitted, *An Improved Illumination Model for Shaded Display*, 1980). What a transparent body reflects and
+//! reflects (Whitted, *An Improved Illumination Model for Shaded Display*, 1980). What a transparent medium reflects and
 //! transmits is in [`crate::scene::Material`]; it casts a full shadow, as in Whitted's paper.
 
-mod body;
 mod light;
+mod medium;
 mod path;
 mod queue;
 mod refract;

@@ -1,11 +1,11 @@
 //! One eye ray and all that follows from it, segment by segment; for drawing.
 
-use super::body::{Inside, Passage, around};
+use super::medium::{MediumStack, Passage, around};
 use super::refract::split;
 use super::spawn::{self, Offsets};
 use super::surface::{shading_normal, surface};
 use crate::math::Vec3 as Lane3;
-use crate::scene::{LEAST_WEIGHT, Scene, ShadowStart};
+use crate::scene::{MIN_WEIGHT, Scene, ShadowStart};
 use crate::trace::Probe;
 use glam::Vec3;
 
@@ -39,7 +39,7 @@ pub struct Segment {
 }
 
 /// The most segments of one path: where reflections and refractions branch, the rest is not drawn.
-const MOST_SEGMENTS: usize = 1000;
+const MAX_SEGMENTS: usize = 1000;
 
 /// The segments an eye ray sets off: first the eye ray's, then those of every further ray before those that it sets
 /// off itself. The first thousand are followed; absorption is not taken into account.
@@ -47,10 +47,10 @@ pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
     let mut tree = Tree { scene, probe: Probe::default(), segments: Vec::new(), waiting: Vec::new() };
     let inside = match scene.plan.refracts {
         true => around(scene, origin, &mut tree.probe),
-        false => Inside::default(),
+        false => MediumStack::default(),
     };
     tree.waiting.push(Ray { kind: SegmentKind::Primary, origin, direction, inside, weight: 1.0, depth: 1 });
-    while let Some(ray) = tree.waiting.pop().filter(|_| tree.segments.len() < MOST_SEGMENTS) {
+    while let Some(ray) = tree.waiting.pop().filter(|_| tree.segments.len() < MAX_SEGMENTS) {
         tree.follow(&ray);
     }
     tree.segments
@@ -61,7 +61,7 @@ struct Ray {
     kind: SegmentKind,
     origin: Vec3,
     direction: Vec3,
-    inside: Inside,
+    inside: MediumStack,
     weight: f32,
     depth: u32,
 }
@@ -127,11 +127,11 @@ impl Tree<'_> {
     /// Adds the reflected and the refracted ray, of which the first is followed first.
     fn go_on(&mut self, ray: &Ray, at: &Arrival, material: usize, front: bool) {
         let m = &self.scene.materials[material];
-        let passage = Passage::new(self.scene, ray.inside, self.scene.body_of[material], front);
+        let passage = Passage::new(self.scene, ray.inside, self.scene.medium_of[material], front);
         let parts = [m.reflectance, m.transmission].map(|part| part * ray.weight);
         let direction = Lane3::from(ray.direction);
         let split = split::<f32>(direction, at.normal, at.geometric, passage.eta, parts, m.additive);
-        let least = if self.scene.plan.refracts { LEAST_WEIGHT } else { f32::MIN_POSITIVE };
+        let least = if self.scene.plan.refracts { MIN_WEIGHT } else { f32::MIN_POSITIVE };
         let mut add = |kind, lift: f32, direction: Lane3<f32>, inside, weight| {
             if weight >= least {
                 let origin = at.geometric.mul_add(lift, at.point).into();

@@ -1,6 +1,6 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
-use super::body::{Inside, Passage};
+use super::medium::{MediumStack, Passage};
 use super::spawn::Offsets;
 use super::surface::shading_normal;
 use super::texture;
@@ -34,31 +34,31 @@ pub struct Surfaces {
     /// Whether any hit of the wave so far has a highlight.
     pub glossy: bool,
     /// What refraction needs; written only where the plan refracts.
-    pub bodies: Bodies,
+    pub media: Transmissions,
 }
 
 /// The transparent side of the surfaces that a wave's rays hit.
 #[derive(Clone, Debug)]
-pub struct Bodies {
+pub struct Transmissions {
     /// Weight of what is transmitted.
     pub transmission: [f32; BATCH],
     /// Above 0 where the material's fractions are constant.
     pub additive: [f32; BATCH],
     /// Index of refraction before the surface, divided by the one behind it.
     pub eta: [f32; BATCH],
-    /// The bodies that refracted rays are in.
-    pub inside: [Inside; BATCH],
+    /// The media that refracted rays are in.
+    pub inside: [MediumStack; BATCH],
     /// What absorption has left of the rays where they arrived; written only where the plan absorbs.
     pub tint: [[f32; BATCH]; 3],
 }
 
-impl Default for Bodies {
+impl Default for Transmissions {
     fn default() -> Self {
         Self {
             transmission: [0.0; BATCH],
             additive: [0.0; BATCH],
             eta: [1.0; BATCH],
-            inside: [Inside::default(); BATCH],
+            inside: [MediumStack::default(); BATCH],
             tint: [[1.0; BATCH]; 3],
         }
     }
@@ -76,7 +76,7 @@ impl Default for Surfaces {
             specular: [0.0; BATCH],
             shininess: [1.0; BATCH],
             glossy: false,
-            bodies: Bodies::default(),
+            media: Transmissions::default(),
         }
     }
 }
@@ -146,9 +146,9 @@ impl Surfaces {
             g.shininess.store(&mut self.shininess[at..]);
         }
         if C::ALL && scene.plan.refracts {
-            (weight * g.transmission).store(&mut self.bodies.transmission[at..]);
-            g.additive.store(&mut self.bodies.additive[at..]);
-            self.bodies.pass::<L>(scene, wave, at, hit, !behind);
+            (weight * g.transmission).store(&mut self.media.transmission[at..]);
+            g.additive.store(&mut self.media.additive[at..]);
+            self.media.pass::<L>(scene, wave, at, hit, !behind);
         }
     }
 
@@ -159,7 +159,7 @@ impl Surfaces {
     }
 }
 
-impl Bodies {
+impl Transmissions {
     /// Finds what lies before and behind the surfaces of packet `at`, and what absorption leaves of the rays up to
     /// there.
     #[inline(never)]
@@ -172,11 +172,11 @@ impl Bodies {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             let material = with_primitive!(scene, ids[lane], |kind, i| kind.material(i));
-            let body = scene.body_of[material as usize];
-            let passage = Passage::new(scene, wave.inside[at + lane], body, front.bits() >> lane & 1 == 1);
+            let medium = scene.medium_of[material as usize];
+            let passage = Passage::new(scene, wave.inside[at + lane], medium, front.bits() >> lane & 1 == 1);
             self.eta[at + lane] = passage.eta;
             self.inside[at + lane] = passage.inside;
-            let absorption = scene.bodies[usize::from(passage.from)].absorption;
+            let absorption = scene.media[usize::from(passage.from)].absorption;
             (0..3).for_each(|axis| depth[axis][lane] = absorption[axis]);
         }
         if scene.plan.absorbs {

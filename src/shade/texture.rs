@@ -1,6 +1,6 @@
 //! Colours from images: bilinear between the four nearest texel centres.
 
-use crate::math::{Lanes, MOST_LANES, Vec3, linear_of_bytes};
+use crate::math::{Lanes, MAX_LANES, Vec3, linear_of_bytes};
 use crate::scene::Texture;
 
 /// The linear colour at (u, v); see [`Texture`].
@@ -17,9 +17,9 @@ pub fn sample<L: Lanes>(texture: &Texture, u: L, v: L) -> Vec3<L> {
 
 /// Two neighbouring columns or rows in every lane, and how far from the first to the second.
 pub(super) struct Span {
-    from: [usize; MOST_LANES],
-    to: [usize; MOST_LANES],
-    part: [f32; MOST_LANES],
+    from: [usize; MAX_LANES],
+    to: [usize; MAX_LANES],
+    part: [f32; MAX_LANES],
 }
 
 impl Span {
@@ -50,13 +50,13 @@ impl Span {
     #[inline(always)]
     fn new<L: Lanes>(from: L, to: L, part: L, count: usize) -> Self {
         let index = |whole: L| {
-            let mut lanes = [0.0; MOST_LANES];
+            let mut lanes = [0.0; MAX_LANES];
             whole.store(&mut lanes);
             // NaN becomes 0.
             lanes.map(|whole| (whole as usize).min(count - 1))
         };
         let finite = part.ge(L::zero());
-        let mut lanes = [0.0; MOST_LANES];
+        let mut lanes = [0.0; MAX_LANES];
         part.select(finite, L::zero()).store(&mut lanes);
         Self { from: index(from), to: index(to.select(finite, L::zero())), part: lanes }
     }
@@ -71,7 +71,7 @@ pub(super) fn bilinear<L: Lanes>(
     texel: impl Fn(usize) -> [f32; 3],
 ) -> Vec3<L> {
     // Corner, channel, lane.
-    let mut corners = [[[0.0; MOST_LANES]; 3]; 4];
+    let mut corners = [[[0.0; MAX_LANES]; 3]; 4];
     for lane in 0..L::WIDTH {
         let [upper, lower] = [rows.from[lane] * width, rows.to[lane] * width];
         let [left, right] = [columns.from[lane], columns.to[lane]];

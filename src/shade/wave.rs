@@ -1,6 +1,6 @@
 //! A wave: rays of a tile that are equally many reflections and refractions from the eye, packed together.
 
-use super::body::Inside;
+use super::medium::MediumStack;
 use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Plan;
 use crate::trace::Contents;
@@ -15,8 +15,8 @@ pub struct Wave {
     pub weight: [f32; BATCH],
     /// What absorption has left of it, by channel; of account only where the plan says that something absorbs.
     pub tint: [[f32; BATCH]; 3],
-    /// The bodies that a ray is in; of account only where the plan says that something refracts.
-    pub inside: [Inside; BATCH],
+    /// The media that a ray is in; of account only where the plan says that something refracts.
+    pub inside: [MediumStack; BATCH],
     /// The pixel of the tile.
     pub pixel: [u8; BATCH],
 }
@@ -28,7 +28,7 @@ impl Default for Wave {
             rays: RayBatch::default(),
             weight: [1.0; BATCH],
             tint: [[1.0; BATCH]; 3],
-            inside: [Inside::default(); BATCH],
+            inside: [MediumStack::default(); BATCH],
             pixel: std::array::from_fn(|i| i as u8),
         }
     }
@@ -46,7 +46,7 @@ pub struct Leaving<'a, L> {
     /// See [`Wave::tint`].
     pub tint: Vec3<L>,
     /// See [`Wave::inside`]; one a lane.
-    pub inside: &'a [Inside],
+    pub inside: &'a [MediumStack],
     /// Their pixels, one a lane.
     pub pixel: &'a [u8],
 }

@@ -1,16 +1,16 @@
 //! Whitted's algorithm over the waves of a tile: trace, light, and again with the rays that mirrors and transparent
-//! bodies send on, compacted.
+//! media send on, compacted.
 
-use super::body::{Inside, around};
 use super::light::Lighting;
+use super::medium::{MediumStack, around};
 use super::queue::{Kind, Queue};
 use super::refract::{Split, split};
 use super::surfaces::{Surfaces, absorbed};
 use super::wave::{Leaving, Observer, Wave};
 use super::{sky, spawn};
 use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, Vec3};
-use crate::scene::{LEAST_WEIGHT, Scene};
-use crate::trace::{Ahead, Bounds, Contents, Everything, Intersect, Probe, Scratch, trace, with_contents};
+use crate::scene::{MIN_WEIGHT, Scene};
+use crate::trace::{Bounds, Contents, Everything, Intersect, Prefetch, Probe, Scratch, trace, with_contents};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,7 +48,7 @@ impl std::ops::Add for Counts {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Workspace {
-    /// The eye rays, ray i for pixel i; filled by the caller and left as they are, but for the bodies they start in.
+    /// The eye rays, ray i for pixel i; filled by the caller and left as they are, but for the media they start in.
     pub primary: Wave,
     /// The tile's linear radiance.
     pub radiance: [[f32; BATCH]; 3],
@@ -56,8 +56,8 @@ pub struct Workspace {
     surfaces: Surfaces,
     lighting: Lighting,
     scratch: Scratch,
-    /// The eye of the last tile, and the bodies around it.
-    eye: Option<(glam::Vec3, Inside)>,
+    /// The eye of the last tile, and the media around it.
+    eye: Option<(glam::Vec3, MediumStack)>,
 }
 
 impl Default for Workspace {
@@ -75,7 +75,7 @@ impl Default for Workspace {
 }
 
 impl Workspace {
-    /// Finds the bodies that the eye rays start in.
+    /// Finds the media that the eye rays start in.
     #[inline(never)]
     fn start_inside(&mut self, scene: &Scene) {
         let origin = self.primary.rays.first_origin();
@@ -167,7 +167,7 @@ impl Stage<'_> {
         trace::<Intersect, L, C>(
             scene,
             &wave.rays,
-            Ahead::NOTHING,
+            Prefetch::NOTHING,
             || Bounds::of::<L>(&wave.rays),
             scratch,
             #[inline(always)]
@@ -209,7 +209,7 @@ impl Stage<'_> {
                 sent = Vec3::load(&lighting.highlight, at).mul_add(L::load(&surfaces.specular[at..]), sent);
             }
             if C::ALL && scene.plan.absorbs {
-                sent = sent.times(Vec3::load(&surfaces.bodies.tint, at));
+                sent = sent.times(Vec3::load(&surfaces.media.tint, at));
             }
             deposit::<L, C>(wave, at, sent, hit, radiance, depth == 1);
             if last {
@@ -245,18 +245,18 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
     let lift = L::load(&surfaces.lift[at..]);
     let hit = lift.ge(L::zero());
     let geometric = surfaces.geometric_normal::<L, Everything>(scene, at);
-    let bodies = &surfaces.bodies;
+    let media = &surfaces.media;
     let Split { mirror, reflected, transmitted, refracted } = split(
         Vec3::load(&wave.rays.direction, at),
         Vec3::load(&surfaces.normal, at),
         geometric,
-        L::load(&bodies.eta[at..]),
-        [L::load(&surfaces.mirror[at..]), L::load(&bodies.transmission[at..])],
-        L::load(&bodies.additive[at..]).gt(L::zero()),
+        L::load(&media.eta[at..]),
+        [L::load(&surfaces.mirror[at..]), L::load(&media.transmission[at..])],
+        L::load(&media.additive[at..]).gt(L::zero()),
     );
-    let tint = Vec3::<L>::load(&bodies.tint, at);
+    let tint = Vec3::<L>::load(&media.tint, at);
     let strongest = if scene.plan.absorbs { tint.max_abs() } else { L::splat(1.0) };
-    let counts = |weight: L| hit & (weight * strongest).ge(L::splat(LEAST_WEIGHT));
+    let counts = |weight: L| hit & (weight * strongest).ge(L::splat(MIN_WEIGHT));
     let point = Vec3::load(&surfaces.point, at);
     let (goes_on, pixel) = (counts(mirror), &wave.pixel[at..]);
     if goes_on.any() {
@@ -266,7 +266,7 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
     }
     let goes_on = counts(transmitted);
     if goes_on.any() {
-        let (origin, inside) = (geometric.mul_add(-lift, point), &bodies.inside[at..]);
+        let (origin, inside) = (geometric.mul_add(-lift, point), &media.inside[at..]);
         let leaving = Leaving { origin, direction: refracted, weight: transmitted, tint, inside, pixel };
         queue.append::<L>(&scene.plan, depth, Kind::Refraction, &leaving, goes_on);
     }
@@ -277,7 +277,7 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
 fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
     let mut absorption = [[0.0; KERNEL_LANES]; 3];
     for (lane, inside) in wave.inside[at..at + L::WIDTH].iter().enumerate() {
-        let sigma = scene.bodies[usize::from(inside.body())].absorption;
+        let sigma = scene.media[usize::from(inside.medium())].absorption;
         (0..3).for_each(|axis| absorption[axis][lane] = sigma[axis]);
     }
     absorbed(Vec3::load(&wave.tint, at), Vec3::load(&absorption, 0), L::splat(0.5 * f32::MAX))

@@ -2,7 +2,7 @@
 
 use crate::geometry::triangle::normal;
 use crate::geometry::{Balls, Planes, Primitives, Triangles};
-use crate::math::{LaneMask, Lanes, RayBatch, Vec3, three};
+use crate::math::{LaneMask, Lanes, RayBatch, Vec3, map3};
 
 /// Bounds of the active rays of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ impl Bounds {
     pub fn miss_triangle(&self, triangles: &Triangles, i: usize) -> bool {
         let corners = triangles.shape(i).corners();
         let n = normal(corners);
-        let [a, b, c] = three(corners, |corner| corner - self.origin.middle);
+        let [a, b, c] = map3(corners, |corner| corner - self.origin.middle);
         let height = a.dot(n);
         let size = a.max_abs().max(b.max_abs()).max(c.max_abs());
         if !self.shared {

@@ -44,15 +44,15 @@ macro_rules! with_contents {
     ($scene:expr, $all:expr, $C:ident => $body:expr) => {
         match ($all, $crate::geometry::Primitives::is_empty(&$scene.triangles)) {
             (true, _) => {
-                type $C = $crate::trace::Everything;
+                type $C = $crate::trace::contents::Everything;
                 $body
             }
             (false, true) => {
-                type $C = $crate::trace::Simple;
+                type $C = $crate::trace::contents::Simple;
                 $body
             }
             (false, false) => {
-                type $C = $crate::trace::Meshes;
+                type $C = $crate::trace::contents::Meshes;
                 $body
             }
         }

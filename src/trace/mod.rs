@@ -4,12 +4,12 @@
 //! common origin is computed once, then the packets go through the rest one by one (`candidates`, `packets`). In a
 //! larger one groups of its rays, or single ones, find their way through a tree of boxes (`tree`).
 
-mod ahead;
 mod bounds;
 mod candidates;
-mod contents;
+pub(crate) mod contents;
 mod packet;
 mod packets;
+mod prefetch;
 mod query;
 mod scratch;
 mod single;
@@ -21,9 +21,9 @@ pub use single::{Hit, Probe, intersect_one, occluded_one};
 
 use crate::math::{LaneMask, Lanes};
 use crate::scene::Scene;
-pub(crate) use ahead::Ahead;
 pub(crate) use bounds::{Bounds, Extent, Span};
-pub(crate) use contents::{Contents, Everything, Meshes, Simple, with_contents};
+pub(crate) use contents::{Contents, Everything, with_contents};
+pub(crate) use prefetch::Prefetch;
 pub(crate) use query::{Intersect, Nearest, Occluded, Query};
 
 /// The nearest hit of every active ray, in packets of `L::WIDTH`.
@@ -31,7 +31,7 @@ pub(crate) use query::{Intersect, Nearest, Occluded, Query};
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
 /// rays of the batch, unless it has NaN or infinite components. `hits` of inactive rays are left as they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Scratch) {
-    intersect_before::<L>(scene, rays, Ahead::NOTHING, hits, scratch);
+    intersect_before::<L>(scene, rays, Prefetch::NOTHING, hits, scratch);
 }
 
 /// [`intersect()`] for many batches, one after the other: each is brought near while the one before it is traced, which
@@ -40,7 +40,7 @@ pub fn intersect_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], hits: &mut [
     let mut rest = hits;
     for (i, batch) in rays.iter().enumerate() {
         let Some((hits, later)) = rest.split_first_mut() else { return };
-        intersect_before::<L>(scene, batch, Ahead::of(rays.get(i + 1), later.first()), hits, scratch);
+        intersect_before::<L>(scene, batch, Prefetch::of(rays.get(i + 1), later.first()), hits, scratch);
         rest = later;
     }
 }
@@ -48,28 +48,28 @@ pub fn intersect_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], hits: &mut [
 fn intersect_before<L: Lanes>(
     scene: &Scene,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     hits: &mut HitBatch,
     scratch: &mut Scratch,
 ) {
     if scene.bvh.is_some() {
         // The answers lie side by side: written at the tree's own width.
-        return nearest_of::<L, L::Wider, Everything>(scene, rays, ahead, hits, scratch);
+        return nearest_of::<L, L::Wider, Everything>(scene, rays, prefetch, hits, scratch);
     }
-    with_contents!(scene, scene.plan.rare, C => nearest_of::<L, L, C>(scene, rays, ahead, hits, scratch))
+    with_contents!(scene, scene.plan.rare, C => nearest_of::<L, L, C>(scene, rays, prefetch, hits, scratch))
 }
 
 fn nearest_of<L: Lanes, W: Lanes, C: Contents>(
     scene: &Scene,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     hits: &mut HitBatch,
     scratch: &mut Scratch,
 ) {
     trace::<Intersect, W, C>(
         scene,
         rays,
-        ahead,
+        prefetch,
         || Bounds::of::<L>(rays),
         scratch,
         #[inline(always)]
@@ -85,40 +85,40 @@ fn nearest_of<L: Lanes, W: Lanes, C: Contents>(
 ///
 /// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Scratch) {
-    occluded_before::<L>(scene, rays, Ahead::NOTHING, blocked, scratch);
+    occluded_before::<L>(scene, rays, Prefetch::NOTHING, blocked, scratch);
 }
 
 /// [`occluded()`] for many batches, as [`intersect_stream`].
 pub fn occluded_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], blocked: &mut [Blocked], scratch: &mut Scratch) {
     for (i, (batch, blocked)) in rays.iter().zip(blocked).enumerate() {
-        occluded_before::<L>(scene, batch, Ahead::of(rays.get(i + 1), None), blocked, scratch);
+        occluded_before::<L>(scene, batch, Prefetch::of(rays.get(i + 1), None), blocked, scratch);
     }
 }
 
 fn occluded_before<L: Lanes>(
     scene: &Scene,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     blocked: &mut Blocked,
     scratch: &mut Scratch,
 ) {
     if scene.bvh.is_some() {
-        return any_of::<L, Everything>(scene, rays, ahead, blocked, scratch);
+        return any_of::<L, Everything>(scene, rays, prefetch, blocked, scratch);
     }
-    with_contents!(scene, scene.plan.rare, C => any_of::<L, C>(scene, rays, ahead, blocked, scratch))
+    with_contents!(scene, scene.plan.rare, C => any_of::<L, C>(scene, rays, prefetch, blocked, scratch))
 }
 
 fn any_of<L: Lanes, C: Contents>(
     scene: &Scene,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     blocked: &mut Blocked,
     scratch: &mut Scratch,
 ) {
     trace::<Occluded, L, C>(
         scene,
         rays,
-        ahead,
+        prefetch,
         || Bounds::of::<L>(rays),
         scratch,
         #[inline(always)]
@@ -127,25 +127,25 @@ fn any_of<L: Lanes, C: Contents>(
 }
 
 /// A query for rays whose bounds may be known; they are only asked for where they are needed. `take` gets every packet's
-/// answer while it is in registers; `ahead` is what comes after this batch.
+/// answer while it is in registers; `prefetch` is what comes after this batch.
 #[inline(always)]
 pub(crate) fn trace<Q: Query, L: Lanes, C: Contents>(
     scene: &Scene,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     bounds: impl FnOnce() -> Option<Bounds>,
     scratch: &mut Scratch,
     take: impl FnMut(usize, L::Mask, &Q::Found<L>),
 ) {
     if let Some(bvh) = &scene.bvh {
-        return tree::trace::<Q, L>(scene, bvh, rays, ahead, bounds, scratch.tree(), take);
+        return tree::trace::<Q, L>(scene, bvh, rays, prefetch, bounds, scratch.tree(), take);
     }
     let Some(bounds) = bounds() else { return };
     if bounds.shared {
         scratch.common.fill::<L>(scene, &bounds);
-        packets::trace::<Q, _, L, C>(scene, &scratch.common, rays, ahead, take);
+        packets::trace::<Q, _, L, C>(scene, &scratch.common, rays, prefetch, take);
     } else {
         scratch.any.fill::<L>(scene, &bounds);
-        packets::trace::<Q, _, L, C>(scene, &scratch.any, rays, ahead, take);
+        packets::trace::<Q, _, L, C>(scene, &scratch.any, rays, prefetch, take);
     }
 }

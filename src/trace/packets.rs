@@ -1,9 +1,9 @@
 //! Packets against candidates, one by one.
 
-use super::ahead::Ahead;
 use super::candidates::{Candidate, Form, List, Lists};
 use super::contents::{Contents, Everything};
 use super::packet::{Packet, Within};
+use super::prefetch::Prefetch;
 use super::query::{Found, Query};
 use crate::geometry::face::Aim;
 use crate::geometry::{Bounded, Primitives, Standard, Test};
@@ -17,7 +17,7 @@ pub fn trace<Q: Query, F: Form, L: Lanes, C: Contents>(
     scene: &Scene,
     candidates: &Lists<F>,
     rays: &RayBatch,
-    mut ahead: Ahead,
+    mut prefetch: Prefetch,
     mut take: impl FnMut(usize, L::Mask, &Q::Found<L>),
 ) {
     debug_assert!(C::hold(scene));
@@ -25,7 +25,7 @@ pub fn trace<Q: Query, F: Form, L: Lanes, C: Contents>(
     let common =
         (&candidates.planes.standard[..], &candidates.spheres.standard[..], &candidates.triangles.standard[..]);
     for at in (0..rays.len).step_by(L::WIDTH) {
-        ahead.step(L::WIDTH / 2);
+        prefetch.step(L::WIDTH / 2);
         let t_max = L::load(&rays.t_max[at..]);
         let active = t_max.ge(L::zero());
         if !active.any() {

@@ -18,11 +18,11 @@ use crate::common::ROUNDOFF;
 /// - cylinder, 8 ε (|o − base| + length + radius) + 6 ε t: length + radius is at most √5 times the ball's radius; cone,
 ///   likewise 12 and 8.
 pub fn k(shape: &Shape) -> f64 {
-    let (three, five) = (3f64.sqrt(), 5f64.sqrt());
+    let (map3, five) = (3f64.sqrt(), 5f64.sqrt());
     match shape {
-        Shape::Plane(_) => 8.0 * three,
+        Shape::Plane(_) => 8.0 * map3,
         Shape::Sphere(_) | Shape::Fractal(_) => 5.0,
-        Shape::Triangle(_) => 32.0 * three,
+        Shape::Triangle(_) => 32.0 * map3,
         Shape::Quad(it) => 24.0 / sine(it.u.as_dvec3(), it.v.as_dvec3()),
         Shape::Cuboid(it) if it.rotation == glam::Vec3::ZERO => 3.0,
         Shape::Cuboid(_) => 14.0,

@@ -1,13 +1,13 @@
 //! The textbook's way to a torus: the quartic multiplied out, and its roots in closed form.
 
 use super::{LaneHits, SeenTorus, along};
-use crate::math::{LaneMask, Lanes, MOST_LANES, Vec3};
+use crate::math::{LaneMask, Lanes, MAX_LANES, Vec3};
 
 /// The roots of the quartic in closed form.
 ///
 /// Jochen Schwarze, *Cubic and Quartic Roots* (Graphics Gems, 1990, pp. 404–407): t = y − a₃ / 4 makes the quartic
 /// y⁴ + p y² + q y + r; with a root z of the resolvent z³ − ½ p z² − r z + ½ p r − ⅛ q², by Cardano's formula or, where
-/// there are three, by Viète's cosine, it is the product of the quadratics y² ± v y + z ∓ u with u² = z² − r and
+/// there are map3, by Viète's cosine, it is the product of the quadratics y² ± v y + z ∓ u with u² = z² − r and
 /// v² = 2 z − p. Deviations: in `f32`; always the greatest z; squares that rounding brings below zero count as zero; no
 /// epsilon decides what else is zero.
 ///
@@ -66,7 +66,7 @@ fn greatest_root<L: Lanes>(a: L, b: L, c: L) -> L {
     let p = b.mul_add(third, -(a * a));
     let q = a.mul_add(a.mul_add(a, b * L::splat(-0.5)), c * L::splat(0.5));
     let discriminant = (p * p).mul_add(p, q * q);
-    let [mut w, mut qs, mut discriminants] = [[0.0; MOST_LANES]; 3];
+    let [mut w, mut qs, mut discriminants] = [[0.0; MAX_LANES]; 3];
     p.store(&mut w);
     q.store(&mut qs);
     discriminant.store(&mut discriminants);

@@ -4,7 +4,7 @@ use super::{LaneHits, ROUNDOFF, SeenTorus, Span, along};
 use crate::math::{LaneMask, Lanes, Vec3};
 
 /// The most steps.
-const MOST_STEPS: usize = 256;
+const MAX_STEPS: usize = 256;
 
 /// At what distance from the surface the march ends, in R + r: what rounds along the way is half of that.
 const NEAR: f32 = 4.0 * ROUNDOFF;
@@ -35,7 +35,7 @@ pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L,
     let near = L::splat(NEAR) * (L::splat(1.0) + seen.kappa);
     let nowhere = zero.lt(zero);
     let (mut outside, mut inside, mut found) = (nowhere, nowhere, nowhere);
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let away = distance(d.mul_add(s, q), seen.kappa);
         let hit = active & ((outside & away.le(near)) | (inside & away.ge(-near)));
         found = found | hit;

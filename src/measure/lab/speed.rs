@@ -27,7 +27,7 @@ const LEAST: Duration = Duration::from_millis(2);
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Turns there are at the least.
-const LEAST_TURNS: usize = 3;
+const MIN_TURNS: usize = 3;
 
 /// How far the eyes are, in radii of the primitive.
 const AWAY: [f64; 2] = [2.0, 1000.0];
@@ -191,8 +191,8 @@ fn take_turns(scenes: &[Scene], batches: &[RayBatch], turns: usize) -> (Vec<Vec<
         .collect();
     let mut times = vec![Vec::new(); contestants.len()];
     let started = Instant::now();
-    for turn in 0..turns.max(LEAST_TURNS) {
-        if turn >= LEAST_TURNS && started.elapsed() > PATIENCE {
+    for turn in 0..turns.max(MIN_TURNS) {
+        if turn >= MIN_TURNS && started.elapsed() > PATIENCE {
             break;
         }
         for (i, contestant) in contestants.iter().enumerate() {

@@ -11,7 +11,7 @@ use crate::scene::Fractal;
 use glam::DVec3;
 
 /// As the description allows.
-const MOST_ITERATIONS: u32 = 8;
+const MAX_ITERATIONS: u32 = 8;
 
 /// The ray along one axis of the grid. Planes and cells count in the order in which the ray passes them: cell j lies
 /// between the planes j and j + 1, and the sponge, which is its own mirror image, does not change by that.
@@ -80,7 +80,7 @@ struct Walk {
 impl Walk {
     /// At the first plane of each axis in the interval and not before the cube; `None` where the ray misses the cube.
     fn new(it: &Fractal, line: &Line) -> Option<Self> {
-        let cells = 3i64.pow(it.iterations.min(MOST_ITERATIONS));
+        let cells = 3i64.pow(it.iterations.min(MAX_ITERATIONS));
         let f = minus(&line.origin, &exact3(it.center)?);
         let (d, radius, n) = (&line.direction, Exact::from_f32(it.radius)?, Exact::integer(cells));
         if radius.sign().is_le() {

@@ -8,8 +8,8 @@ use crate::bvh::Bvh;
 use crate::geometry::{Planes, Primitives};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Scene;
-use crate::trace::ahead::Ahead;
 use crate::trace::bounds::Bounds;
+use crate::trace::prefetch::Prefetch;
 use crate::trace::query::{Found, Query};
 use std::ops::Range;
 
@@ -33,12 +33,12 @@ pub fn trace<Q: Query, L: Lanes>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
     mut take: impl FnMut(usize, L::Mask, &Q::Found<L>),
 ) {
-    answer::<Q, L>(scene, bvh, rays, ahead, bounds, state);
+    answer::<Q, L>(scene, bvh, rays, prefetch, bounds, state);
     for at in (0..rays.len).step_by(L::WIDTH) {
         let active = L::load(&rays.t_max[at..]).ge(L::zero());
         if active.any() {
@@ -53,12 +53,12 @@ fn answer<Q: Query, L: Lanes>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,
-    ahead: Ahead,
+    prefetch: Prefetch,
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
 ) {
     state.start::<L::Wider>(rays, !scene.triangles.is_empty());
-    let mut walk = Walk { scene, bvh, rays, ahead, state };
+    let mut walk = Walk { scene, bvh, rays, prefetch, state };
     if !scene.planes.is_empty() {
         let Some(bounds) = bounds() else { return };
         walk.planes::<Q, L>(&bounds);

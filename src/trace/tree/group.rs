@@ -31,7 +31,7 @@ impl Walk<'_> {
         self.state.stack.clear();
         let mut child = bvh.root;
         loop {
-            self.ahead.step(LINES);
+            self.prefetch.step(LINES);
             let closer = match child.kind() {
                 Kind::Node => {
                     let node = &bvh.nodes[child.index()];

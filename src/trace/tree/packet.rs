@@ -8,7 +8,7 @@ use super::line::Lines;
 use super::stack::Part;
 use super::walk::Walk;
 use crate::bvh::{Child, Kind, Node};
-use crate::math::{BATCH, LaneMask, Lanes, three};
+use crate::math::{BATCH, LaneMask, Lanes, map3};
 use crate::trace::query::Query;
 use wide::f32x16;
 
@@ -33,14 +33,14 @@ struct Lines16 {
 impl Lines16 {
     #[inline(always)]
     fn new(lines: &Lines, at: usize, active: u32) -> Self {
-        let load = |columns: &[[f32; BATCH]; 3]| three([0, 1, 2], |axis| f32x16::load(&columns[axis][at..]));
+        let load = |columns: &[[f32; BATCH]; 3]| map3([0, 1, 2], |axis| f32x16::load(&columns[axis][at..]));
         let inverse = load(&lines.inverse);
-        let behind = three(inverse, |inverse| LaneMask::bits(Lanes::lt(inverse, f32x16::ZERO)) & active);
+        let behind = map3(inverse, |inverse| LaneMask::bits(Lanes::lt(inverse, f32x16::ZERO)) & active);
         Self {
             inverse,
             near: load(&lines.near),
             far: load(&lines.far),
-            side: three(behind, |b| usize::from(b != 0)),
+            side: map3(behind, |b| usize::from(b != 0)),
             mixed: behind.into_iter().any(|b| b != 0 && b != active),
         }
     }
@@ -91,7 +91,7 @@ impl Walk<'_> {
         self.state.parts.clear();
         let mut part = Part { enter: 0.0, child: self.bvh.root, lanes: self.looking(at, 0.0) };
         loop {
-            self.ahead.step(LINES);
+            self.prefetch.step(LINES);
             let few = part.lanes.count_ones() <= FEW;
             match part.child.kind() {
                 Kind::Node if few => each(part.lanes, |lane| self.single::<Q>(at + lane, part.child)),

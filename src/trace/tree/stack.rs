@@ -1,9 +1,9 @@
 //! Children that are still to be visited, the nearest on top.
 
-use crate::bvh::{Child, MOST_DEPTH, Node};
+use crate::bvh::{Child, MAX_DEPTH, Node};
 
 /// A node leaves at most seven of its children behind; while they are sorted in there are all eight.
-const ROOM: usize = 7 * MOST_DEPTH + 8;
+const ROOM: usize = 7 * MAX_DEPTH + 8;
 
 /// A child, and the distance from which on it may be hit: as bits above the child's, since distances are not below
 /// zero and such bits rise with them.

@@ -1,7 +1,7 @@
 //! What is known of a batch's rays on the way.
 
 use crate::geometry::triangle::Aim;
-use crate::math::{BATCH, LaneMask, Lanes, MOST_LANES, NONE, RayBatch, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, NONE, RayBatch, Vec3};
 
 use super::line::Lines;
 use super::stack::{Parts, Stack};
@@ -45,7 +45,7 @@ impl State {
     #[inline(always)]
     pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
         // Beams look at eight rays at a time and packets at sixteen, whatever the width.
-        self.t[rays.len..rays.len.next_multiple_of(MOST_LANES)].fill(f32::NAN);
+        self.t[rays.len..rays.len.next_multiple_of(MAX_LANES)].fill(f32::NAN);
         // Column by column, as they lie in memory: what comes from there comes at twice the speed.
         let origins = rays.origin.iter().filter(|_| !rays.common_origin);
         for (i, column) in origins.chain(&rays.direction).enumerate() {

@@ -4,9 +4,9 @@
 use super::leaf::{Alone, Group, Leaf, Sixteen, columns, each, met, take_eight};
 use super::walk::Walk;
 use crate::bvh::Block;
-use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, there};
+use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
 use crate::geometry::{Sides, Triangles};
-use crate::math::{LaneMask, Lanes, NONE, Vec3, three};
+use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 use crate::trace::query::Query;
 use wide::{f32x8, f32x16};
 
@@ -29,20 +29,20 @@ impl Leaf for Triangles {
             let lane = left.trailing_zeros() as usize & 7;
             left &= left - 1;
             let columns = &block.shape.corners;
-            walk.ahead.step(LINES);
+            walk.prefetch.step(LINES);
             for at in group.range.clone().step_by(L::WIDTH) {
                 let origin = walk.rays.origins::<L>(at);
                 let inside = match group.beam.major {
                     Some(major) => {
                         let origin = origin.ordered(major);
                         let axis = |k: usize, i: usize| L::splat(columns[k][(major + 1 + i) % 3][lane]) - origin[i];
-                        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
+                        let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)));
                         covers_ordered(&seen, walk.state.shear(at))
                     }
                     None => {
                         let aim = Aim::new(Vec3::load(&walk.rays.direction, at));
                         let corners = block.primitive(lane).corners();
-                        covers(&three(corners, |c| Vec3::splat(c.into()) - origin), &aim)
+                        covers(&map3(corners, |c| Vec3::splat(c.into()) - origin), &aim)
                     }
                 };
                 let Some(inside) = inside else { continue };
@@ -68,7 +68,7 @@ impl Leaf for Triangles {
         let mut taken = false;
         for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
             let corners = block.primitive(lane).corners();
-            let seen = three(corners, |corner| Vec3::splat(corner.into()) - origin);
+            let seen = map3(corners, |corner| Vec3::splat(corner.into()) - origin);
             if let Some(inside) = covers(&seen, &aim) {
                 taken |= take::<Q, f32x16>(walk, rays.at, &Flat::of(corners, origin), sides, inside, id);
             }
@@ -81,16 +81,16 @@ impl Leaf for Triangles {
         let from = ray.packet.origin.ordered(ray.major);
         let TriangleShape { corners } = &block.shape;
         let axis = |k: usize, i: usize| f32x8::from(corners[k][(ray.major + 1 + i) % 3]) - from[i];
-        let seen = three([0, 1, 2], |k| three([0, 1, 2], |i| axis(k, i)));
+        let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)));
         let Some(inside) = covers_ordered(&seen, ray.shear) else { return false };
         let corners = columns(block).corners();
-        let [a, b, c] = three(corners, |c| c - ray.packet.origin);
+        let [a, b, c] = map3(corners, |c| c - ray.packet.origin);
         let n = normal(corners);
         let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
         let (t, inside) = flat.distance(ray.packet.direction, inside);
         let mut inside = inside & Lanes::gt(t, ray.packet.t_min);
         if sides != Sides::Both {
-            inside = inside & there(sides, n.dot(ray.packet.direction));
+            inside = inside & shown(sides, n.dot(ray.packet.direction));
         }
         take_eight::<Q>(walk, ray.i, t, inside, &block.id)
     }
@@ -109,7 +109,7 @@ fn take<Q: Query, L: Lanes>(
     let direction = Vec3::load(&walk.rays.direction, at);
     let (t, mut inside) = flat.distance(direction, inside);
     if sides != Sides::Both {
-        inside = inside & there(sides, flat.n.dot(direction));
+        inside = inside & shown(sides, flat.n.dot(direction));
     }
     let inside = inside & t.gt(L::load(&walk.rays.t_min[at..]));
     inside.any() && walk.state.take::<Q, L>(at, t, inside, id)

@@ -4,7 +4,7 @@ use super::state::State;
 use crate::bvh::Bvh;
 use crate::math::RayBatch;
 use crate::scene::Scene;
-use crate::trace::ahead::Ahead;
+use crate::trace::prefetch::Prefetch;
 
 /// A batch on its way through the tree. The traversals are generic over the query `Q`; `MIXED` says that a beam or
 /// packet has an axis with both directions.
@@ -12,6 +12,6 @@ pub struct Walk<'a> {
     pub scene: &'a Scene,
     pub bvh: &'a Bvh,
     pub rays: &'a RayBatch,
-    pub ahead: Ahead<'a>,
+    pub prefetch: Prefetch<'a>,
     pub state: &'a mut State,
 }

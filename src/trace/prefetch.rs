@@ -4,13 +4,13 @@ use crate::math::{HitBatch, RayBatch};
 
 /// What of the next batch, and of where its hits go, is still far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ahead<'a> {
+pub(crate) struct Prefetch<'a> {
     rays: Option<&'a RayBatch>,
     hits: Option<&'a HitBatch>,
     line: usize,
 }
 
-impl<'a> Ahead<'a> {
+impl<'a> Prefetch<'a> {
     /// Nothing comes next, or it is near already.
     pub const NOTHING: Self = Self { rays: None, hits: None, line: RayBatch::LINES + HitBatch::LINES };
 
