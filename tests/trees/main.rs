@@ -5,6 +5,7 @@
 mod common;
 mod field;
 mod found;
+mod of_a_kind;
 mod pair;
 mod pictures;
 mod rays;

@@ -116,10 +116,14 @@ fn random(scene: &mut Description, n: usize, at: Vec3, scale: f32, rng: &mut Pcg
 
 /// Adds a primitive of any kind; the same `shape` makes the same one.
 fn any(scene: &mut Description, at: Vec3, shape: Vec3, size: f32, rng: &mut Pcg) {
-    add(scene, rng.below(9), at, shape, size);
+    add(scene, rng.below(KINDS), at, shape, size);
 }
 
-fn add(scene: &mut Description, kind: usize, at: Vec3, shape: Vec3, size: f32) {
+/// How many kinds [`add`] knows; triangles count twice.
+pub const KINDS: usize = 9;
+
+/// Adds a primitive of a kind.
+pub fn add(scene: &mut Description, kind: usize, at: Vec3, shape: Vec3, size: f32) {
     let material = 0;
     let axis = (shape + vec3(0.1, 0.0, 0.2)).normalize_or(Vec3::Y);
     let across = axis.any_orthonormal_vector();
@@ -164,7 +168,7 @@ fn equal(scene: &mut Description, rng: &mut Pcg) {
     for _ in 0..3 {
         let (apart, shape) = (rng.pick(&[0.0, 1.0, 1.0]), rng.cube());
         let at = rng.cube() * apart;
-        for kind in 0..9 {
+        for kind in 0..KINDS {
             if rng.chance(0.6) {
                 (0..100).for_each(|_| add(scene, kind, at, shape, 0.4));
             }

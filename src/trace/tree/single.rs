@@ -28,7 +28,9 @@ impl Walk<'_> {
                     let (enter, met) = line.meets(node, f32x8::splat(limit));
                     if met != 0 {
                         bvh.fetch(node, met);
-                        child = self.state.stack.nearest(node, &enter.to_array(), met).child();
+                        let (stack, enter) = (&mut self.state.stack, enter.to_array());
+                        let next = if Q::ANY { stack.any(node, &enter, met) } else { stack.nearest(node, &enter, met) };
+                        child = next.child();
                         continue;
                     }
                     false

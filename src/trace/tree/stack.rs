@@ -96,6 +96,21 @@ impl Stack {
         self.entries[self.len]
     }
 
+    /// Any of the children of `node` whose bits are set, at least one; the others are put aside as they come. For rays
+    /// that any hit will do for, which sorting would cost more than it saves.
+    #[inline(always)]
+    pub fn any(&mut self, node: &Node, enter: &[f32; 8], mut bits: u32) -> Entry {
+        loop {
+            let lane = bits.trailing_zeros() as usize & 7;
+            bits &= bits - 1;
+            let entry = Entry::new(enter[lane], node.child[lane]);
+            if bits == 0 {
+                return entry;
+            }
+            self.push(entry);
+        }
+    }
+
     #[inline(always)]
     fn push(&mut self, entry: Entry) {
         self.entries[self.len] = entry;
