@@ -8,7 +8,8 @@
 use std::array::from_fn;
 
 use super::aabb::Aabb;
-use super::limits::{BLOCK, BLOCK_COST, NODE_COST, PRIMITIVE_COST, WIDTH};
+use super::kind::Class;
+use super::limits::{BLOCK, NODE_COST, WIDTH};
 
 /// The least cost of a subtree as at most 1, 2 … 7 children: area · expected work.
 #[derive(Clone, Copy, Debug)]
@@ -44,12 +45,12 @@ impl Choices {
 
 impl Costs {
     /// A range of one class that is not split.
-    pub fn leaf(bounds: Aabb, len: usize) -> Self {
-        Self([bounds.area_f64() * block(len); WIDTH - 1])
+    pub fn leaf(bounds: Aabb, class: Class, len: usize) -> Self {
+        Self([bounds.area_f64() * class.cost(len); WIDTH - 1])
     }
 
-    /// Two subtrees together; with `len` when all primitives have the same class.
-    pub fn parent(left: &Self, right: &Self, bounds: Aabb, len: Option<usize>) -> (Self, Choices) {
+    /// Two subtrees together; with `block` when all primitives have the same class: that, and how many there are.
+    pub fn parent(left: &Self, right: &Self, bounds: Aabb, block: Option<(Class, usize)>) -> (Self, Choices) {
         // Both parts shown, as at most 0, 1 … 8 children: what that costs, and how many the left one gets.
         let apart: [(f64, u32); WIDTH + 1] = from_fn(|children| {
             let cost = |k: usize| left.0[k - 1] + right.0[children - k - 1];
@@ -57,7 +58,8 @@ impl Costs {
         });
         let area = bounds.area_f64();
         let as_node = area * NODE_COST + apart[WIDTH].0;
-        let as_block = len.filter(|&len| len <= BLOCK).map_or(f64::INFINITY, |len| area * block(len));
+        let as_block = block.filter(|&(_, len)| len <= BLOCK);
+        let as_block = as_block.map_or(f64::INFINITY, |(class, len)| area * class.cost(len));
         let mut choices = apart[WIDTH].1 << shift(WIDTH);
         if as_block <= as_node {
             choices |= Choices::BLOCK;
@@ -78,9 +80,4 @@ impl Costs {
 /// Where the choice for at most `children` children lies.
 fn shift(children: usize) -> usize {
     3 * (children - 2)
-}
-
-/// What a block costs a ray that enters its box.
-fn block(len: usize) -> f64 {
-    BLOCK_COST + PRIMITIVE_COST * len as f64
 }

@@ -1,6 +1,7 @@
 //! What children of a node are: blocks of a kind of primitive, or nodes.
 
-use super::limits::{INDEX_BITS, MAX_PRIMITIVES};
+use super::limits::{INDEX_BITS, MAX_PRIMITIVES, NODE_COST};
+use crate::geometry::Bounded;
 use crate::kinds::for_each_kind;
 
 macro_rules! kinds {
@@ -28,6 +29,14 @@ macro_rules! kinds {
                 }
             }
 
+            /// What it costs a ray to visit a block: itself, and each primitive. Of a node, [`NODE_COST`].
+            fn costs(self) -> [f64; 2] {
+                match self {
+                    $(Self::$Storage => <crate::geometry::$Storage as Bounded>::COST,)*
+                    Self::Node | Self::Nothing => [NODE_COST, 0.0],
+                }
+            }
+
             /// By the number in a [`Child`].
             pub(super) const BY_NUMBER: [Self; 16] = {
                 let mut kinds = [Self::Nothing; 16];
@@ -40,6 +49,14 @@ macro_rules! kinds {
 }
 for_each_kind!(kinds);
 
+impl Kind {
+    /// What it costs a ray to visit a block of so many, or a node, in visits of a node.
+    pub fn cost(self, len: usize) -> f64 {
+        let [block, primitive] = self.costs();
+        block + primitive * len as f64
+    }
+}
+
 /// What primitives of a block have in common: a kind and a variant of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Class(pub(super) u16);
@@ -48,6 +65,11 @@ impl Class {
     /// Of a kind and the code of a variant, which is below 32.
     pub fn new(kind: Kind, code: u8) -> Self {
         Self((kind as u16) << 5 | u16::from(code & 31))
+    }
+
+    /// What it costs a ray to visit a block of so many.
+    pub fn cost(self, len: usize) -> f64 {
+        self.kind().cost(len)
     }
 
     /// The kind.

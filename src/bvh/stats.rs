@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::kind::{Child, Kind};
-use super::limits::{BLOCK_COST, NODE_COST, PRIMITIVE_COST};
 use super::tree::Bvh;
 use crate::math::NONE;
 
@@ -25,7 +24,7 @@ pub struct Stats {
     /// The most nodes on a way from the root to a block.
     pub depth: usize,
     /// Expected cost of a ray that meets the root's box, in visits of a node: the surface area heuristic with
-    /// [`NODE_COST`], [`BLOCK_COST`] and [`PRIMITIVE_COST`]. 0 where that box has no area.
+    /// [`Kind::cost`]. 0 where that box has no area.
     pub sah: f64,
 }
 
@@ -66,10 +65,7 @@ impl Bvh {
     }
 
     fn cost(&self, child: Child) -> f64 {
-        match child.kind() {
-            Kind::Node => NODE_COST,
-            _ => BLOCK_COST + PRIMITIVE_COST * self.fill(child) as f64,
-        }
+        child.kind().cost(self.fill(child))
     }
 
     /// Looks at the whole tree.

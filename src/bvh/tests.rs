@@ -221,7 +221,7 @@ fn nothing_and_one() {
 
     let bvh = Check::of(&Items::new(vec![Item::Sphere(Vec3::ONE, 1.0)]));
     assert_eq!((bvh.root, bvh.depth), (Child::new(Kind::Spheres, 0), 0));
-    assert_eq!(bvh.stats().sah, BLOCK_COST + PRIMITIVE_COST);
+    assert_eq!(bvh.stats().sah, Kind::Spheres.cost(1));
 }
 
 #[test]
@@ -330,11 +330,7 @@ fn least(tree: &Tree, source: &Items, node: usize, first: usize, children: usize
     let len = n.len as usize;
     let class = source.class(tree.order[first] as usize);
     let one_class = tree.order[first..first + len].iter().all(|&i| source.class(i as usize) == class);
-    let block = if len <= BLOCK && one_class {
-        n.bounds.area_f64() * (BLOCK_COST + PRIMITIVE_COST * len as f64)
-    } else {
-        f64::INFINITY
-    };
+    let block = if len <= BLOCK && one_class { n.bounds.area_f64() * class.cost(len) } else { f64::INFINITY };
     if n.choices.is_leaf() {
         return block;
     }

@@ -215,6 +215,7 @@ struct Local<L: Lanes> {
 impl Bounded for Cones {
     /// Rounding acts as if the ray were moved, so that every hit lies next to the surface, if anywhere.
     const BOXED: bool = false;
+    const COST: [f64; 2] = [4.0, 0.2];
     #[inline(always)]
     fn extent<L: Lanes>(cone: &ConeShape<L>) -> [Vec3<L>; 2] {
         cone.bounds

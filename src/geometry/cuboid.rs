@@ -149,6 +149,7 @@ fn turned(degrees: glam::Vec3) -> DMat3 {
 
 impl Bounded for Cuboids {
     const BOXED: bool = true;
+    const COST: [f64; 2] = [2.0, 0.3];
     #[inline(always)]
     fn extent<L: Lanes>(cuboid: &CuboidShape<L>) -> [Vec3<L>; 2] {
         cuboid.bounds

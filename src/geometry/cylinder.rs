@@ -134,6 +134,7 @@ impl Cylinders {
 impl Bounded for Cylinders {
     /// Rounding acts as if the ray were moved, so that every hit lies next to the surface, if anywhere.
     const BOXED: bool = false;
+    const COST: [f64; 2] = [4.0, 0.2];
     #[inline(always)]
     fn extent<L: Lanes>(cylinder: &CylinderShape<L>) -> [Vec3<L>; 2] {
         cylinder.bounds

@@ -191,6 +191,7 @@ impl Fractals {
 
 impl Bounded for Fractals {
     const BOXED: bool = true;
+    const COST: [f64; 2] = [8.0, 4.0];
     #[inline(always)]
     fn extent<L: Lanes>(fractal: &FractalShape<L>) -> [Vec3<L>; 2] {
         fractal.bounds

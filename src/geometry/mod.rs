@@ -203,6 +203,9 @@ pub trait Bounded: Primitives {
     /// Whether hits count only within the box around the primitive, widened by 32 ε of its farthest corner's distance:
     /// for tests that say little about their rounding. (Triangles see to that themselves.)
     const BOXED: bool;
+    /// What it costs a ray to visit a block of eight in a tree, in visits of a node: for the block, and for each of its
+    /// primitives (measured).
+    const COST: [f64; 2];
     /// The least and the greatest corner of a box around a primitive.
     fn extent<L: Lanes>(shape: &Self::Shape<L>) -> [Vec3<L>; 2];
     /// The same of primitive `i`.

@@ -91,6 +91,7 @@ impl Quads {
 
 impl Bounded for Quads {
     const BOXED: bool = true;
+    const COST: [f64; 2] = [2.0, 0.3];
     #[inline(always)]
     fn extent<L: Lanes>(quad: &QuadShape<L>) -> [Vec3<L>; 2] {
         quad.bounds

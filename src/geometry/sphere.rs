@@ -84,6 +84,7 @@ impl Spheres {
 
 impl Bounded for Spheres {
     const BOXED: bool = false;
+    const COST: [f64; 2] = [1.5, 0.05];
     /// Rounded to nearest: the traversal's margin covers it.
     #[inline(always)]
     fn extent<L: Lanes>(sphere: &SphereShape<L>) -> [Vec3<L>; 2] {

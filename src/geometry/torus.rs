@@ -170,6 +170,7 @@ impl Tori {
 
 impl Bounded for Tori {
     const BOXED: bool = true;
+    const COST: [f64; 2] = [8.0, 3.0];
     #[inline(always)]
     fn extent<L: Lanes>(torus: &TorusShape<L>) -> [Vec3<L>; 2] {
         torus.bounds

@@ -239,6 +239,7 @@ impl Triangles {
 
 impl Bounded for Triangles {
     const BOXED: bool = false;
+    const COST: [f64; 2] = [1.5, 0.05];
     #[inline(always)]
     fn extent<L: Lanes>(triangle: &TriangleShape<L>) -> [Vec3<L>; 2] {
         let [a, b, c] = triangle.corners();

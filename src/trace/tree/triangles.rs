@@ -88,10 +88,8 @@ impl Leaf for Triangles {
         let n = normal(corners);
         let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
         let (t, inside) = flat.distance(ray.packet.direction, inside);
-        let mut inside = inside & Lanes::gt(t, ray.packet.t_min);
-        if sides != Sides::Both {
-            inside = inside & shown(sides, n.dot(ray.packet.direction));
-        }
+        let inside = inside & Lanes::gt(t, ray.packet.t_min);
+        let inside = if sides == Sides::Both { inside } else { inside & shown(sides, n.dot(ray.packet.direction)) };
         take_eight::<Q>(walk, ray.i, t, inside, &block.id)
     }
 }
