@@ -12,8 +12,9 @@ use super::refs::{Extent, Ref};
 
 /// A range of one class that is no longer is not split further.
 const SMALLEST: usize = 2;
-/// The same where there are more than [`MANY`] primitives. By the heuristic that costs rays 1 to 2 % (on a height
-/// field of a million triangles), but it saves a tenth of the building and three tenths of the memory.
+/// The longest range that is not split further where there are more than [`MANY`] primitives. By the heuristic that
+/// costs rays 1 to 2 % (on a height field of a million triangles), but it saves a tenth of the building and three
+/// tenths of the memory.
 const SMALLEST_OF_MANY: usize = 4;
 /// From here on memory and building matter more than the last per cent.
 const MANY: usize = 1 << 16;
@@ -45,7 +46,7 @@ pub(super) struct Tree {
     pub order: Vec<u32>,
 }
 
-/// What is known of a subtree when it is done.
+/// The result of building a subtree.
 struct Done {
     costs: Costs,
     /// The class of its primitives, if they have one in common.

@@ -80,7 +80,7 @@ fn shift(children: usize) -> usize {
     3 * (children - 2)
 }
 
-/// What a block costs a ray that enters its box.
+/// The cost of a block for a ray that enters its box.
 fn block(len: usize) -> f64 {
     BLOCK_COST + PRIMITIVE_COST * len as f64
 }

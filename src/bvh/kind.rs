@@ -1,11 +1,11 @@
-//! What children of a node are: blocks of a kind of primitive, or nodes.
+//! The kinds of a node's children: blocks of a kind of primitive, or nodes.
 
 use super::limits::{INDEX_BITS, MAX_PRIMITIVES};
 use crate::kinds::for_each_kind;
 
 macro_rules! kinds {
     (unbounded { $($unbounded:tt)* } bounded { $(($field:ident: $Storage:ident, $($rest:tt)*))* }) => {
-        /// What a child is.
+        /// The kind of a child.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Kind {
             /// A node.
@@ -40,7 +40,7 @@ macro_rules! kinds {
 }
 for_each_kind!(kinds);
 
-/// What primitives of a block have in common: a kind and a variant of it.
+/// The class that primitives of a block have in common: a kind and a variant of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Class(pub(super) u16);
 
@@ -71,7 +71,7 @@ impl Child {
         Self((kind as u32) << INDEX_BITS | i as u32)
     }
 
-    /// What it is; [`Kind::Nothing`] for [`Child::EMPTY`].
+    /// The child's kind; [`Kind::Nothing`] for [`Child::EMPTY`].
     #[inline(always)]
     pub fn kind(self) -> Kind {
         Kind::BY_NUMBER[(self.0 >> INDEX_BITS) as usize]

@@ -10,11 +10,12 @@ pub const BLOCK: usize = 8;
 /// depth, and a wide node is at least one binary one.
 pub const MAX_DEPTH: usize = 64;
 
-/// What it costs a ray to visit a node: the unit of the other costs.
+/// The cost of a node for a ray that visits it: the unit of the other costs.
 pub const NODE_COST: f64 = 1.0;
-/// What it costs a ray to visit a block, however many primitives are in it: load, transform, a test of eight lanes.
+/// The cost of a block for a ray that visits it, however many primitives are in it: load, transform, a test of eight
+/// lanes.
 pub const BLOCK_COST: f64 = 1.5;
-/// What every primitive of a block adds: packets test those that a cull leaves one by one.
+/// The cost that every primitive of a block adds: packets test those that a cull leaves one by one.
 pub const PRIMITIVE_COST: f64 = 0.05;
 
 /// Bits of a [`Child`](super::Child) that hold an index.
