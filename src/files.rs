@@ -16,7 +16,7 @@ use tempfile::NamedTempFile;
 pub struct FileError {
     /// The path, as the user gave it.
     pub path: PathBuf,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
 }
 

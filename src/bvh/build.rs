@@ -12,8 +12,9 @@ use super::refs::{Extent, Ref};
 
 /// A range of one class that is no longer is not split further.
 const SMALLEST: usize = 2;
-/// The same where there are more than [`MANY`] primitives. By the heuristic that costs rays 1 to 2 % (on a height
-/// field of a million triangles), but it saves a tenth of the building and three tenths of the memory.
+/// The longest range that is not split further where there are more than [`MANY`] primitives. By the heuristic that
+/// costs rays 1 to 2 % (on a height field of a million triangles), but it saves a tenth of the building and three
+/// tenths of the memory.
 const SMALLEST_OF_MANY: usize = 4;
 /// What costs more visits of a node than that is split down to single primitives: rings gain 4 %.
 const DEAR: f64 = 3.0;
@@ -47,7 +48,7 @@ pub(super) struct Tree {
     pub order: Vec<u32>,
 }
 
-/// What is known of a subtree when it is done.
+/// The result of building a subtree.
 struct Done {
     costs: Costs,
     /// The class of its primitives, if they have one in common.

@@ -1,4 +1,4 @@
-//! What children of a node are: blocks of a kind of primitive, or nodes.
+//! The kinds of a node's children: blocks of a kind of primitive, or nodes.
 
 use super::limits::{INDEX_BITS, MAX_PRIMITIVES, NODE_COST};
 use crate::geometry::Bounded;
@@ -6,7 +6,7 @@ use crate::kinds::for_each_kind;
 
 macro_rules! kinds {
     (unbounded { $($unbounded:tt)* } bounded { $(($field:ident: $Storage:ident, $($rest:tt)*))* }) => {
-        /// What a child is.
+        /// The kind of a child.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Kind {
             /// A node.
@@ -50,14 +50,14 @@ macro_rules! kinds {
 for_each_kind!(kinds);
 
 impl Kind {
-    /// What it costs a ray to visit a block of so many, or a node, in visits of a node.
+    /// The cost of a block of so many, or of a node, for a ray that visits it: in visits of a node.
     pub fn cost(self, len: usize) -> f64 {
         let [block, primitive] = self.costs();
         block + primitive * len as f64
     }
 }
 
-/// What primitives of a block have in common: a kind and a variant of it.
+/// The class that primitives of a block have in common: a kind and a variant of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Class(pub(super) u16);
 
@@ -93,7 +93,7 @@ impl Child {
         Self((kind as u32) << INDEX_BITS | i as u32)
     }
 
-    /// What it is; [`Kind::Nothing`] for [`Child::EMPTY`].
+    /// The child's kind; [`Kind::Nothing`] for [`Child::EMPTY`].
     #[inline(always)]
     pub fn kind(self) -> Kind {
         Kind::BY_NUMBER[(self.0 >> INDEX_BITS) as usize]

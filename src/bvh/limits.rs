@@ -10,7 +10,7 @@ pub const BLOCK: usize = 8;
 /// depth, and a wide node is at least one binary one.
 pub const MAX_DEPTH: usize = 64;
 
-/// What it costs a ray to visit a node: the unit of the other costs.
+/// The cost of a node for a ray that visits it: the unit of the other costs.
 pub const NODE_COST: f64 = 1.0;
 /// Bits of a [`Child`](super::Child) that hold an index.
 pub(super) const INDEX_BITS: u32 = 28;

@@ -1,4 +1,4 @@
-//! What the builder moves around: a primitive's box, its index and class in 32 bytes.
+//! The references that the builder moves around: a primitive's box, its index and class in 32 bytes.
 
 use glam::{Vec3, Vec3A, Vec4};
 use rayon::prelude::*;

@@ -1,11 +1,11 @@
-//! What a tree is built from.
+//! The source that a tree is built from.
 
 use super::aabb::Aabb;
 use super::block::Blocks;
 use super::kind::Class;
 use super::limits::BLOCK;
 
-/// What a tree is built from: primitives 0, 1 … `len` − 1.
+/// The source that a tree is built from: primitives 0, 1 … `len` − 1.
 pub trait Source: Sync {
     /// The number of primitives, at most [`MAX_PRIMITIVES`](super::MAX_PRIMITIVES).
     fn len(&self) -> usize;
@@ -24,7 +24,7 @@ pub trait Source: Sync {
     fn cut(&self) -> bool {
         false
     }
-    /// What primitive `i` is.
+    /// The class of primitive `i`.
     fn class(&self, i: usize) -> Class;
     /// Its id, which rises with `i`.
     fn id(&self, i: usize) -> u32;

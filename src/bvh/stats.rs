@@ -1,4 +1,4 @@
-//! What a tree is like, for people.
+//! Statistics of a tree, for people.
 
 use std::fmt;
 

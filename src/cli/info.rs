@@ -57,7 +57,7 @@ impl fmt::Display for Summary<'_> {
     }
 }
 
-/// What the tree is like, below the reason that there is one.
+/// Writes the tree's statistics, below the reason that there is one.
 fn tree(scene: &Scene, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let Some(bvh) = &scene.bvh else { return Ok(()) };
     let (stats, ms) = (bvh.stats(), scene.build_time.as_secs_f64() * 1e3);

@@ -1,11 +1,12 @@
-//! What the bodies about an axis share: their axes, the slab between their ends, and the choice of the nearest hit.
+//! The geometry that bodies about an axis share: their axes, the slab between their ends, and the choice of the nearest
+//! hit.
 
 use glam::{DVec3, Vec3};
 
 use super::{LaneHits, Sides, Variant};
 use crate::math::{LaneMask, Lanes};
 
-/// What there is of a body about an axis.
+/// The ends and sides that a body about an axis has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hull {
     /// Whether the ends are closed.

@@ -128,7 +128,7 @@ pub(super) fn rays(body: Body, far: f64, count: usize, rng: &Rng) -> Vec<(V, V)>
         .collect()
 }
 
-/// What the kernel finds at one width, `None` for a miss.
+/// The kernel's hits at one width, `None` for a miss.
 fn found<P: Primitives, L: Lanes>(kind: &P, rays: &[(V, V)]) -> Vec<Option<f32>> {
     let mut out = Vec::new();
     for chunk in rays.chunks(L::WIDTH) {

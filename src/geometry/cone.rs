@@ -43,7 +43,7 @@ pub struct Cones {
     pub radii: Vec<[f32; 2]>,
     /// Lengths.
     pub length: Vec<f32>,
-    /// What the test makes of these.
+    /// The test's numbers, made of these.
     pub numbers: Vec<ConeNumbers<f32>>,
     /// Whether the narrow end is the apex of the description, so that heights count from the wide one.
     pub upright: Vec<bool>,
@@ -92,7 +92,7 @@ numbers! {
         /// The box around it.
         bounds: [Vec3; 2],
     }
-    /// What a cone's test needs of it and of the rays' origin, in the cone's unit.
+    /// A cone as seen from the rays' origin, in the cone's unit.
     SeenCone {
         /// T cos α, B cos α and A.
         axes: [Vec3; 3],

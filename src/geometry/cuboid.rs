@@ -52,7 +52,7 @@ numbers! {
         /// The box along the world's axes around it.
         bounds: [Vec3; 2],
     }
-    /// What a box's test needs of it and of the rays' origin.
+    /// A box as seen from the rays' origin.
     SeenCuboid {
         /// The lower face of each pair, from the origin, in the box's own axes.
         low: Vec3,

@@ -66,7 +66,7 @@ numbers! {
         /// The box around it.
         bounds: [Vec3; 2],
     }
-    /// What a cylinder's test needs of it and of the rays' origin.
+    /// A cylinder as seen from the rays' origin.
     SeenCylinder {
         /// T, B and A.
         axes: [Vec3; 3],

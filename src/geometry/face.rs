@@ -1,4 +1,4 @@
-//! What boxes and fractals share: pairs of faces across three axes.
+//! The geometry that boxes and fractals share: pairs of faces across three axes.
 
 use crate::math::{Lanes, Vec3};
 

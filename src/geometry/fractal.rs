@@ -67,7 +67,7 @@ numbers! {
         /// The box around it.
         bounds: [Vec3; 2],
     }
-    /// What a fractal's test needs of it and of the rays' origin.
+    /// A fractal as seen from the rays' origin.
     SeenFractal {
         /// f = o − center.
         f: Vec3,

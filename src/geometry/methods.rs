@@ -118,7 +118,7 @@ impl NormalizeMethod {
     }
 }
 
-/// What a scene is traced by.
+/// The methods by which a scene is traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Methods {
     /// Spheres.

@@ -66,12 +66,12 @@ pub struct Surface<L> {
     pub reach: f32,
 }
 
-/// What a primitive's numbers may be: one, lanes, or a column of a block.
+/// A number of a primitive: one, lanes, or a column of a block.
 pub trait Number: Copy + Send + Sync {}
 
 impl<T: Copy + Send + Sync> Number for T {}
 
-/// What primitives of one kind may differ in beside their numbers: all of a block have it in common, so that a test
+/// The variant of a primitive within its kind, beside its numbers: all of a block have it in common, so that a test
 /// chooses once for all lanes.
 pub trait Variant: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync {
     /// A number below 32, another for each.
@@ -91,7 +91,7 @@ impl Variant for Sides {
     }
 }
 
-/// What a batch's bounds leave primitives of a kind out by.
+/// The geometry by which a batch's bounds leave out primitives of a kind.
 pub enum Cull<'a> {
     /// Balls around them.
     Balls(&'a Balls),
@@ -108,11 +108,11 @@ pub enum Cull<'a> {
 pub trait Primitives: Sized {
     /// The numbers that the test needs of a primitive.
     type Shape<T: Number>: Number;
-    /// What it needs beside numbers; that of the plainest primitives is the default.
+    /// The variant that the test needs beside numbers; that of the plainest primitives is the default.
     type Variant: Variant;
-    /// What remains to be known as seen from the rays' origin.
+    /// A primitive as seen from the rays' origin.
     type Seen<T: Copy>: Copy;
-    /// What the test needs of the rays' directions; the directions themselves for most.
+    /// The rays' directions as the test takes them; the directions themselves for most.
     type Aim<L: Lanes>: Copy + From<Vec3<L>>;
     /// Other methods for the same test; [`Never`] where there are none.
     type Named: Test<Self>;
@@ -133,7 +133,7 @@ pub trait Primitives: Sized {
     fn material(&self, i: usize) -> u32 {
         self.materials()[i]
     }
-    /// What a batch's bounds leave primitives out by.
+    /// The geometry by which a batch's bounds leave out primitives.
     fn cull(&self) -> Cull<'_>;
 
     /// Primitive `i`'s numbers.
@@ -151,7 +151,7 @@ pub trait Primitives: Sized {
     fn map<A: Number, B: Number>(shape: &Self::Shape<A>, f: impl Fn(&A) -> B) -> Self::Shape<B> {
         Self::zip(shape, shape, |a, _| f(a))
     }
-    /// The same primitive in every lane.
+    /// One primitive in every lane.
     #[inline(always)]
     fn splat<L: Lanes>(shape: &Self::Shape<f32>) -> Self::Shape<L> {
         Self::map(shape, |number| L::splat(*number))
@@ -159,7 +159,7 @@ pub trait Primitives: Sized {
 
     /// Primitives as seen from `origin`.
     fn seen<L: Lanes>(shape: &Self::Shape<L>, variant: Self::Variant, origin: Vec3<L>) -> Self::Seen<L>;
-    /// The same view in every lane.
+    /// One view in every lane.
     fn splat_seen<L: Lanes>(seen: &Self::Seen<f32>) -> Self::Seen<L>;
     /// Prepares unit directions, once for all primitives of the kind.
     #[inline(always)]
@@ -208,7 +208,7 @@ pub trait Bounded: Primitives {
     const COST: [f64; 2];
     /// The least and the greatest corner of a box around a primitive.
     fn extent<L: Lanes>(shape: &Self::Shape<L>) -> [Vec3<L>; 2];
-    /// The same of primitive `i`.
+    /// The least and the greatest corner of a box around primitive `i`.
     #[inline(always)]
     fn around(&self, i: usize) -> [glam::Vec3; 2] {
         let [min, max] = Self::extent(&self.shape(i));
@@ -228,11 +228,11 @@ pub trait Bounded: Primitives {
 
 /// A test of a kind's primitives by one method.
 pub trait Test<K: Primitives>: Copy {
-    /// What it needs of a primitive as seen from the rays' origin.
+    /// A primitive as seen from the rays' origin, for this method.
     type Seen<T: Copy>: Copy;
     /// Primitives as seen from `origin`.
     fn seen<L: Lanes>(self, shape: &K::Shape<L>, variant: K::Variant, origin: Vec3<L>) -> Self::Seen<L>;
-    /// The same view in every lane.
+    /// One view in every lane.
     fn splat_seen<L: Lanes>(seen: &Self::Seen<f32>) -> Self::Seen<L>;
     /// The nearest distance inside (`t_min`, `t_max`).
     fn nearest<L: Lanes>(

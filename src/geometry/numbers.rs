@@ -1,4 +1,4 @@
-//! What a primitive is made of, for any type of number: one (`f32`), lanes, or a block's columns (`[f32; 8]`).
+//! The numbers of a primitive, for any type of number: one (`f32`), lanes, or a block's columns (`[f32; 8]`).
 
 /// Structs over a type of number `T`, with fields of the forms `T`, `[T; 2]`, `[T; 3]`, `Vec3`, `[Vec3; 2]`,
 /// `[Vec3; 3]` and `[[T; 3]; 3]`.

@@ -19,7 +19,7 @@ pub struct Planes {
     pub distance: Vec<f32>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
-    /// The same planes with unit normals, for shading.
+    /// The planes with unit normals, for shading.
     pub unit: Vec<UnitPlane>,
 }
 
@@ -42,7 +42,7 @@ numbers! {
         /// Its offset.
         distance: T,
     }
-    /// What a plane's test needs of it and of the rays' origin.
+    /// A plane as seen from the rays' origin.
     SeenPlane {
         /// The normal.
         normal: Vec3,

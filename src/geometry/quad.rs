@@ -39,7 +39,7 @@ numbers! {
         /// The box around it.
         bounds: [Vec3; 2],
     }
-    /// What a quad's test needs of it and of the rays' origin, with T = o − corner.
+    /// A quad as seen from the rays' origin, with T = o − corner.
     SeenQuad {
         /// N = u × v.
         n: Vec3,

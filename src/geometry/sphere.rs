@@ -43,7 +43,7 @@ numbers! {
         /// Its radius.
         radius: T,
     }
-    /// What a sphere's test needs of it and of the rays' origin.
+    /// A sphere as seen from the rays' origin.
     SeenSphere {
         /// f = o − center.
         f: Vec3,
@@ -52,11 +52,11 @@ numbers! {
         /// r².
         r2: T,
     }
-    /// What [`double`] needs of a sphere and of the rays' origin.
+    /// A sphere as seen from the rays' origin, for [`double`].
     ExactSphere {
         /// f = o − center, rounded.
         f: Vec3,
-        /// What f is short of o − center for its rounding.
+        /// The rounding that f lacks: o − center − f.
         lost: Vec3,
         /// r.
         radius: T,

@@ -97,7 +97,7 @@ numbers! {
         /// The box around it.
         bounds: [Vec3; 2],
     }
-    /// What a torus's test needs of it and of the rays' origin.
+    /// A torus as seen from the rays' origin.
     SeenTorus {
         /// (o − center) / R, along T, B and A.
         f: Vec3,

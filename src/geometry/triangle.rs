@@ -49,7 +49,7 @@ pub struct Triangles {
     pub method: TriangleMethod,
 }
 
-/// What vertices have beside their place, shared by the triangles around them.
+/// An attribute of vertices beside their position, shared by the triangles around them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attribute<T> {
     /// By vertex.
@@ -79,7 +79,7 @@ numbers! {
         /// a, b, c by component.
         corners: [[T; 3]; 3],
     }
-    /// What [`watertight`] needs of a triangle and of the rays' origin.
+    /// A triangle as seen from the rays' origin, for [`watertight`].
     SeenTriangle {
         /// a, b, c, from the origin.
         corners: [Vec3; 3],
@@ -88,7 +88,7 @@ numbers! {
         /// a·N, a from the origin.
         height: T,
     }
-    /// What [`moller_trumbore`] needs of a triangle and of the rays' origin.
+    /// A triangle as seen from the rays' origin, for [`moller_trumbore`].
     SeenEdges {
         /// N = e1 × e2.
         n: Vec3,
@@ -99,7 +99,7 @@ numbers! {
         /// −T·N.
         height: T,
     }
-    /// What [`edge_planes`] needs of a triangle and of the rays' origin.
+    /// A triangle as seen from the rays' origin, for [`edge_planes`].
     SeenEdgePlanes {
         /// The normals of the planes through the origin and an edge.
         planes: [Vec3; 3],
@@ -346,7 +346,7 @@ impl Test<Triangles> for TriangleMethod {
     }
 }
 
-/// What is there of a hit for rays that come from either side.
+/// Keeps the hits on sides that are there, of hits for rays that come from either side.
 #[inline(always)]
 fn one_sided<L: Lanes>(hit: LaneHits<L>, sides: Sides, n: Vec3<L>, aim: &Aim<L>) -> LaneHits<L> {
     let (t, inside) = hit?;
@@ -386,7 +386,7 @@ pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask>
     covers_ordered(&ordered, aim.shear)
 }
 
-/// The same for corners whose components come in the order of those after the directions' largest, and that.
+/// [`covers`] for corners whose components are ordered: the two after the directions' largest, then that one.
 #[inline(always)]
 pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Option<L::Mask> {
     let [[ax, ay], [bx, by], [cx, cy]] = map3(*corners, |[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
@@ -397,7 +397,7 @@ pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Opti
     inside.any().then_some(inside)
 }
 
-/// What the second half of [`watertight`] needs of a triangle and of the rays' origin: its plane and its box.
+/// A triangle's plane and box as seen from the rays' origin, for the second half of [`watertight`].
 ///
 /// The plane alone does not tell how far a hit is: edge-on, or where a triangle is smaller than the rounding of its
 /// distance, all edge functions vanish however far a line passes by, and t is off by any number of ε. The box is wider by

@@ -1,4 +1,4 @@
-//! What this build was compiled for.
+//! The instruction set that this build was compiled for.
 
 /// The instruction set that the kernels of this build use, for reports: `avx512+fma`, `avx2+fma`, `avx`, `sse4.1`, `sse2` …
 ///

@@ -44,12 +44,12 @@ pub trait Lanes:
     const WIDTH: usize;
     /// `x1`, `x4`, `x8`, `x16`.
     const NAME: &'static str;
-    /// What comparisons give.
+    /// The result of comparisons.
     type Mask: LaneMask;
-    /// The same, or twice as wide where that pays: for loops over packets that no one outside sees.
+    /// This type, or one twice as wide where that pays: for loops over packets that no one outside sees.
     type Wider: Lanes;
 
-    /// The same number in every lane.
+    /// One number in every lane.
     fn splat(value: f32) -> Self;
     /// The first `WIDTH` numbers of a slice. Panics when it is shorter.
     fn load(from: &[f32]) -> Self;

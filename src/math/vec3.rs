@@ -30,7 +30,7 @@ impl<L: Lanes> Vec3<L> {
         Self { x, y, z }
     }
 
-    /// The same vector in every lane.
+    /// One vector in every lane.
     #[inline(always)]
     pub fn splat(v: glam::Vec3) -> Self {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
@@ -84,8 +84,8 @@ impl<L: Lanes> Vec3<L> {
         self * (L::splat(1.0) / self.dot(self).sqrt())
     }
 
-    /// The same from the hardware's estimate of 1/√ and as many of Newton's steps: an error of the length of at most 2⁻¹¹, 2⁻²⁰
-    /// with one step and 8 ε with two. `None` for [`Vec3::normalize`]. The bits depend on the processor.
+    /// Unit length from the hardware's estimate of 1/√ and `steps` of Newton's: an error of the length of at most 2⁻¹¹,
+    /// 2⁻²⁰ with one step and 8 ε with two. `None` for [`Vec3::normalize`]. The bits depend on the processor.
     #[inline(always)]
     pub fn normalize_by(self, steps: Option<u32>) -> Self {
         match steps {

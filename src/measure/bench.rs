@@ -22,7 +22,7 @@ const BUDGET: Duration = Duration::from_secs(4);
 /// Rays traced between two looks at the clock, at the least.
 const MIN_RAYS: u64 = 500_000;
 
-/// What to measure.
+/// Options of a measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Width and height of the picture whose rays are traced.
@@ -72,7 +72,7 @@ impl Build {
     }
 }
 
-/// What [`run`] found.
+/// The findings of [`run`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// The scene's name.
@@ -83,7 +83,7 @@ pub struct Report {
     pub threads: usize,
     /// The instruction set this build uses.
     pub isa: &'static str,
-    /// What primitives are tested by and rays moved off surfaces ([`crate::geometry::methods`]).
+    /// The methods by which primitives are tested and rays moved off surfaces ([`crate::geometry::methods`]).
     pub methods: String,
     /// Whether the answers agreed: all kernels with each other to the bit, and a smaller picture with the reference.
     pub valid: bool,

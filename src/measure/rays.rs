@@ -22,7 +22,7 @@ pub enum RayFileError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The file does not end with a whole record.
@@ -52,7 +52,7 @@ pub enum RayFileError {
         path: PathBuf,
         /// Counted from 0.
         index: u64,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
 }

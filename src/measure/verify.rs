@@ -45,7 +45,7 @@ pub use compare::{Answers, Comparison};
 pub use table::table;
 pub use truth::Truth;
 
-/// What [`verify`] found out about one scene.
+/// The findings of [`verify`] about one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// The scene's name.
@@ -65,7 +65,7 @@ pub struct Report {
 pub struct KernelReport {
     /// `x1`, `x4` or `x8`.
     pub kernel: &'static str,
-    /// What the comparison counted.
+    /// The counts of the comparison.
     #[serde(flatten)]
     pub comparison: Comparison,
 }
@@ -96,7 +96,7 @@ pub fn verify(scene: &Description, kernels: &[Kernel], width: usize, height: usi
     verify_with(scene, &CompileOptions::default(), kernels, width, height)
 }
 
-/// The same, of a scene compiled with options.
+/// Compares the packet tracer with the reference as [`verify`] does, on a scene compiled with options.
 ///
 /// # Panics
 /// As [`verify`].
@@ -130,7 +130,7 @@ pub fn judge(truth: &Truth, answers: &[(Kernel, Answers<'_>)]) -> Report {
     Report { scene: truth.name.clone(), size: truth.size, kernels, identical, pass }
 }
 
-/// What a display shows of a linear colour: the sRGB curve, clamped to 0..1. What is not finite becomes NaN.
+/// A linear colour as a display shows it: the sRGB curve, clamped to 0..1. Numbers that are not finite become NaN.
 fn displayed(linear: DVec3) -> DVec3 {
     linear.map(|channel| match channel {
         c if !c.is_finite() => f64::NAN,

@@ -55,7 +55,7 @@ impl Cone {
         if self.upright { self.length - q.z } else { q.z }
     }
 
-    /// What the radius grows by, a unit of height.
+    /// The growth of the radius per unit of height.
     fn slope(&self) -> f64 {
         (self.radii[1] - self.radii[0]) / self.length
     }

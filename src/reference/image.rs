@@ -10,7 +10,7 @@ pub fn render(scene: &Description, width: usize, height: usize, samples: u32) ->
     render_with_progress(scene, width, height, samples, &|_| ())
 }
 
-/// The same; `progress` is called now and then with the share done, 0 to 1, from any thread.
+/// As [`render`]; `progress` is called now and then with the share done, 0 to 1, from any thread.
 pub fn render_with_progress(
     scene: &Description,
     width: usize,

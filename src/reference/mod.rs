@@ -67,7 +67,7 @@ trait Primitive: Debug + Send + Sync {
     fn checker(&self, point: DVec3) -> DVec3;
 }
 
-/// What a scene describes: a primitive, or a mesh of them.
+/// An element of a description: a primitive, or a mesh of them.
 trait Primitives {
     /// Adds what is to be traced, in the order of ids.
     fn add(&self, to: &mut Vec<Box<dyn Primitive>>);

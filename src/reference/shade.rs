@@ -23,15 +23,15 @@ impl Rounding {
     pub const FINE: Self = Self { lift: 1.0 / (1u64 << 40) as f64, shift: DVec3::ZERO };
 }
 
-/// What a ray carries through the recursion.
+/// The state that a ray carries through the recursion.
 #[derive(Clone, Copy)]
 struct Way<'a> {
     rounding: &'a Rounding,
     /// The number of segments so far; the eye ray is 1.
     depth: u32,
-    /// What the ray counts for in its pixel.
+    /// The weight of the ray in its pixel.
     weight: f64,
-    /// What absorption has left of it.
+    /// The share of the ray that absorption has left, by channel.
     tint: DVec3,
     /// The materials of the bodies that it is in, the one it entered last at the end.
     inside: &'a [usize],
@@ -56,7 +56,7 @@ struct Point<'a> {
     base: DVec3,
 }
 
-/// What lies before and behind a surface.
+/// The media before and behind a surface.
 struct Passage {
     /// The material of the body that the ray came through.
     from: Option<usize>,
@@ -75,7 +75,7 @@ impl Tracer {
         self.radiance_rounded(origin, direction, &Rounding::FINE)
     }
 
-    /// The same, as it looks with more rounding.
+    /// The linear radiance seen from `origin` along the unit `direction`, as it looks with more rounding.
     pub fn radiance_rounded(&self, origin: DVec3, direction: DVec3, rounding: &Rounding) -> DVec3 {
         let inside = self.around(origin);
         self.radiance_along(
@@ -115,7 +115,7 @@ impl Tracer {
         sum * left
     }
 
-    /// What absorption leaves of a ray by channel, after `distance` in a body of this material.
+    /// The share of a ray that absorption leaves by channel, after `distance` in a body of this material.
     fn left(&self, body: Option<usize>, distance: f64) -> DVec3 {
         let absorption = body.map_or(DVec3::ZERO, |m| self.materials[m].absorption.as_dvec3());
         absorption.map(|sigma| if sigma > 0.0 { (-sigma * distance).exp() } else { 1.0 })
@@ -207,7 +207,7 @@ impl Tracer {
         })
     }
 
-    /// What one light adds: E (base n·l + specular max(0, r·l)^shininess), unless something is in the way.
+    /// The radiance that one light adds: E (base n·l + specular max(0, r·l)^shininess), unless something is in the way.
     fn direct(&self, light: &Light, point: &Point<'_>, mirrored: DVec3, rounding: &Rounding) -> DVec3 {
         let position = light.position.as_dvec3();
         let to_light = position - point.position;

@@ -15,7 +15,7 @@ pub(super) fn sample(texture: &Texture, uv: DVec2) -> DVec3 {
     })
 }
 
-/// What a ray sees that hits nothing.
+/// The radiance along a ray that hits nothing.
 pub(super) fn sky(sky: &Sky, direction: DVec3) -> DVec3 {
     match sky {
         Sky::Color(color) => color.as_dvec3(),

@@ -38,7 +38,7 @@ impl Format {
     }
 }
 
-/// What can be written instead of colours.
+/// A quantity that can be written instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
     /// The distance from the eye.

@@ -125,7 +125,8 @@ pub fn render_display(
     render_display_while(scene, camera, kernel, [width, height], pixels, &|| true)
 }
 
-/// The same, as long as `go_on` says so, which is asked before every tile; what is left then stays as it was.
+/// As [`render_display`], as long as `go_on` says so, which is asked before every tile; the other pixels stay as they
+/// were.
 ///
 /// # Panics
 /// When `pixels` does not hold width × height.
@@ -185,7 +186,7 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
     }
 }
 
-/// What a thread keeps between tiles.
+/// Memory that a thread keeps between tiles.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct Work {
@@ -215,7 +216,7 @@ fn over_tiles<P: Copy + Default + Send>(
     over_tiles_while(pixels, width, &|| true, tile)
 }
 
-/// The same, as long as `go_on` says so.
+/// As [`over_tiles`], as long as `go_on` says so.
 fn over_tiles_while<P: Copy + Default + Send>(
     pixels: &mut [P],
     width: usize,

@@ -8,9 +8,9 @@ use super::{Description, Progress, ReadError, read_nff, read_obj, read_with_prog
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Builtin {
-    /// What it is called by.
+    /// Its name.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// A line about what it shows.
     pub summary: &'static str,
     /// Its TOML text.
     pub source: &'static str,
@@ -42,7 +42,7 @@ pub fn builtins() -> &'static [Builtin] {
 
 /// Reads a scene by the path of its file or by its built-in name.
 ///
-/// What has an extension, or is a file, is a path; anything else is a name.
+/// Text with an extension, or that leads to a file, is a path; anything else is a name.
 ///
 /// # Errors
 /// [`ReadError`] for a name that is not known, a format that is not supported, or a faulty file.

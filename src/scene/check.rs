@@ -1,4 +1,4 @@
-//! What makes a description sound: every rule, once, whoever wrote the description.
+//! The rules of a sound description: each once, whoever wrote the description.
 
 use super::kinds::{Kind, each_kind};
 use super::rules::{At, color, direction, finite, fov, key_part, point, positive, require, rule, triple};

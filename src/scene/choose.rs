@@ -95,7 +95,7 @@ mod tests {
     use crate::geometry::methods::OffsetMethod;
     use glam::Vec3;
 
-    /// What a display cannot show, of a pixel that is averaged.
+    /// A difference that a display cannot show, of a pixel that is averaged.
     const TOLERANCE: f32 = 1.0 / 255.0;
 
     /// Two spheres before the eye.

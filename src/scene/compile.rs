@@ -14,7 +14,7 @@ use crate::geometry::methods::Choice;
 use crate::geometry::{self, Primitives};
 use crate::kinds::for_each_kind;
 
-/// What a caller asks of a compiled scene, instead of what the plan decides.
+/// A caller's choices for a compiled scene, in place of the plan's.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileOptions {
     /// The structure. Then spheres are tested by the stable method, unless another is asked for, so that every structure
@@ -69,11 +69,11 @@ macro_rules! scene {
             pub textures: Vec<Arc<Texture>>,
             /// Point lights.
             pub lights: Vec<Light>,
-            /// What a ray that hits nothing sees.
+            /// The radiance along rays that hit nothing.
             pub sky: Sky,
             /// Depth, light fall-off, ambient light.
             pub settings: Settings,
-            /// What the scene needs, and why.
+            /// The tracer's plan for the scene, with reasons.
             pub plan: Plan,
         }
 
@@ -168,7 +168,7 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
     compile_with(description, &CompileOptions::default())
 }
 
-/// The same, with what the caller asks for instead of the plan.
+/// Compiles a description with the caller's choices in place of the plan's.
 ///
 /// # Errors
 /// [`Invalid`] when [`check`] finds fault with it.

@@ -1,4 +1,4 @@
-//! What the user wrote: the scene as plain data, before anything is compiled.
+//! The scene as the user wrote it: plain data, before anything is compiled.
 //!
 //! Every number is the `f32` that was read, and counts as exact: the packet tracer and the `f64`
 //! reference both start from these same values. Lengths are in world units, light power in watts,
@@ -26,7 +26,7 @@ macro_rules! description {
             pub camera: CameraDescription,
             /// Depth, light fall-off, ambient light.
             pub settings: Settings,
-            /// What a ray that hits nothing sees.
+            /// The radiance along rays that hit nothing.
             pub sky: Sky,
             /// Point lights.
             pub lights: Vec<Light>,
@@ -87,10 +87,10 @@ impl Default for Settings {
     }
 }
 
-/// What a ray that hits nothing sees: a radiance by direction.
+/// The radiance along rays that hit nothing, by direction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sky {
-    /// The same in every direction.
+    /// One radiance for every direction.
     Color(Vec3),
     /// From one below to one above: (1 − s) below + s above with s = (d.y + 1) / 2 for the unit direction d.
     Gradient {
@@ -220,7 +220,7 @@ pub enum Pigment {
     Texture {
         /// Index into [`Description::textures`].
         texture: usize,
-        /// What one repeat measures in u and v, above 0.
+        /// The length of one repeat in u and v, above 0.
         size: f32,
     },
 }

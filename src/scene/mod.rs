@@ -26,6 +26,6 @@ pub use read::*;
 pub struct Invalid {
     /// The key, as the TOML file spells its place: `sphere[3].radius`.
     pub key: String,
-    /// What is wrong, with the value.
+    /// The problem, with the value.
     pub problem: String,
 }

@@ -1,4 +1,4 @@
-//! What a scene needs of the tracer, decided once when it is compiled.
+//! The tracer's plan for a scene, decided once when it is compiled.
 
 use glam::Vec3;
 
@@ -26,7 +26,7 @@ pub enum Structure {
     Tree,
 }
 
-/// What the tracer will do for a scene; what is absent costs nothing.
+/// The work that the tracer does for a scene; what is absent costs nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The numbers of primitives by kind, in the order of [`KINDS`].
@@ -49,7 +49,7 @@ pub struct Plan {
     pub highlights: bool,
     /// Where each light's shadow rays start.
     pub shadows: Vec<ShadowStart>,
-    /// What primitives are tested by, vectors normalised and rays moved off surfaces.
+    /// The methods by which primitives are tested, vectors normalised and rays moved off surfaces.
     pub methods: Methods,
     /// Why spheres are tested as they are.
     pub why: String,

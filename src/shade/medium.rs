@@ -44,7 +44,7 @@ impl MediumStack {
     }
 }
 
-/// What a ray meets at a surface.
+/// The media on the two sides of a surface that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage {
     /// The medium that the ray came through; 0 for none.

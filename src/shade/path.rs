@@ -9,7 +9,7 @@ use crate::scene::{MIN_WEIGHT, Scene, ShadowStart};
 use crate::trace::Probe;
 use glam::Vec3;
 
-/// What a segment of a path is.
+/// The kind of a path's segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SegmentKind {
     /// From the eye.
@@ -28,7 +28,7 @@ pub enum SegmentKind {
 /// One straight piece of the light paths that one eye ray sets off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// What it is.
+    /// Its kind.
     pub kind: SegmentKind,
     /// Where it starts.
     pub from: Vec3,

@@ -27,7 +27,7 @@ pub struct Queue {
     waiting: usize,
 }
 
-/// What it holds matters only while a tile is traced, so that a copy starts out empty.
+/// A copy starts out empty, as the contents matter only while a tile is traced.
 impl Clone for Queue {
     fn clone(&self) -> Self {
         Self::default()

@@ -3,7 +3,7 @@
 use super::spawn;
 use crate::math::{Lanes, Vec3};
 
-/// What happens at a dielectric to unpolarised light.
+/// Reflection and refraction of unpolarised light at a dielectric.
 #[derive(Clone, Copy, Debug)]
 pub struct Fresnel<L: Lanes> {
     /// Reflectance F, 0 to 1; 1 where the ray is reflected totally.
@@ -42,14 +42,14 @@ pub fn bend<L: Lanes>(direction: Vec3<L>, normal: Vec3<L>, eta: L, cosine: L, th
     t * t.dot(t).mul_add(L::splat(-0.5), L::splat(1.5))
 }
 
-/// What becomes of a ray at a surface, besides the surface's own shading.
+/// The rays that a ray splits into at a surface, besides the surface's own shading.
 #[derive(Clone, Copy, Debug)]
 pub struct Split<L: Lanes> {
-    /// What the reflected ray counts for.
+    /// The weight of the reflected ray.
     pub mirror: L,
     /// Its unit direction.
     pub reflected: Vec3<L>,
-    /// What the refracted ray counts for; 0 where there is none.
+    /// The weight of the refracted ray; 0 where there is none.
     pub transmitted: L,
     /// Its unit direction.
     pub refracted: Vec3<L>,

@@ -1,4 +1,4 @@
-//! What rays see that hit nothing.
+//! The radiance along rays that hit nothing.
 
 use super::texture::{Span, bilinear};
 use crate::math::{Lanes, Vec3, angle};

@@ -99,8 +99,9 @@ pub fn shadow_from_light<L: Lanes>(
     ShadowRay { origin: light, direction, t_max, cosine: -normal.dot(direction), inverse }
 }
 
-/// The same ray from `point` to `light`: for a light so far away that a ray from there would miss small things. It ends
-/// a lift before the light, by the same bound, so that a surface through the light does not block it.
+/// The ray of [`shadow_from_light`] reversed, from `point` to `light`: for a light so far away that a ray from there
+/// would miss small things. It ends a lift before the light, by the same bound, so that a surface through the light
+/// does not block it.
 #[inline(always)]
 pub fn shadow_from_point<L: Lanes>(
     offsets: &Offsets,

@@ -33,7 +33,7 @@ pub struct Surfaces {
     pub shininess: [f32; BATCH],
     /// Whether any hit of the wave so far has a highlight.
     pub glossy: bool,
-    /// What refraction needs; written only where the plan refracts.
+    /// The media for refraction; written only where the plan refracts.
     pub media: Transmissions,
 }
 
@@ -48,7 +48,7 @@ pub struct Transmissions {
     pub eta: [f32; BATCH],
     /// The media that refracted rays are in.
     pub inside: [MediumStack; BATCH],
-    /// What absorption has left of the rays where they arrived; written only where the plan absorbs.
+    /// The share of the rays that absorption has left where they arrived; written only where the plan absorbs.
     pub tint: [[f32; BATCH]; 3],
 }
 
@@ -186,7 +186,7 @@ impl Transmissions {
     }
 }
 
-/// What is left of a tint after a way `t` through something of the given absorption: e^(−σ t) of it.
+/// A tint after a way `t` through something of the given absorption: e^(−σ t) of it.
 #[inline(always)]
 pub fn absorbed<L: Lanes>(tint: Vec3<L>, absorption: Vec3<L>, t: L) -> Vec3<L> {
     let per_unit = t * L::splat(-std::f32::consts::LOG2_E);

@@ -35,7 +35,7 @@ impl Span {
         Self::new(from, zero.select(above.ge(n), above), place - below, count)
     }
 
-    /// The same for s from 0 to 1, where the first and last go on beyond the border.
+    /// Texel centres as in [`Span::repeating`], for s from 0 to 1; the first and last texel go on beyond the border.
     #[inline(always)]
     pub fn clamped<L: Lanes>(s: L, count: usize) -> Self {
         let last = L::splat(count as f32) - L::splat(1.0);

@@ -24,7 +24,7 @@ fn linear(byte: u8) -> f32 {
     linear_of_bytes()[usize::from(byte)]
 }
 
-/// What the reference sees on a quad whose corners have the given (u, v), in its middle.
+/// The reference's colour on a quad whose corners have the given (u, v), in its middle.
 fn exact(texture: &Texture, u: f32, v: f32) -> DVec3 {
     // A mesh of one triangle, all of whose vertices have the same coordinates.
     let positions = vec![vec3(-1.0, -1.0, 0.0), vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0)];

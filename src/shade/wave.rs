@@ -11,9 +11,10 @@ use crate::trace::Contents;
 pub struct Wave {
     /// The rays.
     pub rays: RayBatch,
-    /// What a ray's radiance counts for in its pixel.
+    /// The weight of a ray's radiance in its pixel.
     pub weight: [f32; BATCH],
-    /// What absorption has left of it, by channel; of account only where the plan says that something absorbs.
+    /// The share of it that absorption has left, by channel; of account only where the plan says that something
+    /// absorbs.
     pub tint: [[f32; BATCH]; 3],
     /// The media that a ray is in; of account only where the plan says that something refracts.
     pub inside: [MediumStack; BATCH],
@@ -41,7 +42,7 @@ pub struct Leaving<'a, L> {
     pub origin: Vec3<L>,
     /// Unit directions.
     pub direction: Vec3<L>,
-    /// What they count for.
+    /// The weights of their radiance in their pixels.
     pub weight: L,
     /// See [`Wave::tint`].
     pub tint: Vec3<L>,

@@ -131,7 +131,7 @@ fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: 
     }
 }
 
-/// What a tile's waves go through.
+/// The scene and the memory that a tile's waves are traced and shaded with.
 struct Stage<'a> {
     scene: &'a Scene,
     radiance: &'a mut [[f32; BATCH]; 3],
@@ -272,7 +272,7 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
     }
 }
 
-/// What is left of the tints of packet `at` after a way without an end.
+/// The tints of packet `at` after a way without an end.
 #[inline(never)]
 fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
     let mut absorption = [[0.0; KERNEL_LANES]; 3];

@@ -1,4 +1,4 @@
-//! What holds for all rays of a batch: boxes around their origins and directions, and a ball and a cone around those.
+//! Bounds of all rays of a batch: boxes around their origins and directions, and a ball and a cone around those.
 
 use crate::geometry::triangle::normal;
 use crate::geometry::{Balls, Planes, Primitives, Triangles};

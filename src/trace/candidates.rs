@@ -6,7 +6,7 @@ use crate::kinds::for_each_kind;
 use crate::math::{Lanes, Vec3};
 use crate::scene::Scene;
 
-/// What is kept of a candidate until the packets come.
+/// The form in which a candidate is kept until the packets come.
 pub trait Form {
     /// A primitive's record for a test.
     type Of<K: Primitives, T: Test<K>>: Copy;

@@ -1,9 +1,9 @@
-//! What a scene holds, as a type: what it does not hold is not compiled into the loops over its lists.
+//! A scene's contents as a type: anything that it does not hold is not compiled into the loops over its lists.
 
 use crate::geometry::Primitives;
 use crate::scene::Scene;
 
-/// What a scene may hold.
+/// The contents that a scene may have.
 pub trait Contents: 'static {
     /// Whether there may be triangles.
     const TRIANGLES: bool;

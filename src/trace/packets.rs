@@ -132,7 +132,7 @@ fn each<F: Form, K: Primitives, T: Test<K>, L: Lanes, A: Found<L>, C: Contents>(
     }
 }
 
-/// The same by the method that was asked for.
+/// [`each`] by the method that was asked for.
 #[inline(never)]
 fn each_named<F: Form, K: Primitives, L: Lanes, A: Found<L>>(
     kind: &K,
@@ -145,7 +145,7 @@ fn each_named<F: Form, K: Primitives, L: Lanes, A: Found<L>>(
     }
 }
 
-/// The same for a kind whose hits count only within their boxes; see [`super::packet`].
+/// Tests a kind whose hits count only within their boxes, by all methods; see [`super::packet`].
 #[inline(always)]
 fn each_boxed<F: Form, K: Bounded, L: Lanes, A: Found<L>>(
     kind: &K,

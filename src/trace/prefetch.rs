@@ -2,7 +2,7 @@
 
 use crate::math::{HitBatch, RayBatch};
 
-/// What of the next batch, and of where its hits go, is still far.
+/// The parts of the next batch, and of the place for its hits, that are not in the caches yet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prefetch<'a> {
     rays: Option<&'a RayBatch>,

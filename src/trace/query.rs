@@ -6,7 +6,7 @@ use crate::math::{LaneMask, Lanes, NONE};
 pub trait Query: 'static {
     /// Whether any hit will do, so that a ray is done with its first.
     const ANY: bool;
-    /// What a packet has found.
+    /// The findings of a packet.
     type Found<L: Lanes>: Found<L>;
 }
 
@@ -26,7 +26,7 @@ impl Query for Occluded {
     type Found<L: Lanes> = Blockers<L>;
 }
 
-/// What a packet does with the hits that the primitives' tests report.
+/// The findings of a packet, made of the hits that the primitives' tests report.
 pub trait Found<L: Lanes> {
     /// No hit yet, in intervals that end at `t_max`; only where `active`.
     fn nothing(t_max: L, active: L::Mask) -> Self;

@@ -3,7 +3,7 @@
 use super::candidates::{AnyOrigin, CommonOrigin, Lists};
 use super::tree::State;
 
-/// What both queries need beside the scene and the rays. What it holds matters only while a batch is traced.
+/// Memory that both queries need beside the scene and the rays. Its contents matter only while a batch is traced.
 #[derive(Default)]
 pub struct Scratch {
     /// For batches whose rays share their origin.
@@ -27,7 +27,7 @@ impl std::fmt::Debug for Scratch {
 }
 
 impl Scratch {
-    /// What the way through a tree needs.
+    /// Memory for the way through a tree.
     #[inline(always)]
     pub(super) fn tree(&mut self) -> &mut State {
         self.tree.get_or_insert_default()

@@ -32,7 +32,7 @@ pub struct Moves {
     pub fast: bool,
 }
 
-/// What moving changes.
+/// The camera's pose and field of view, which moving changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pose {
     eye: DVec3,

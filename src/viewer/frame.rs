@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// Every how many pixels of the middle row a ray is drawn in the slice.
 const EVERY: usize = 10;
 
-/// What a frame is to show.
+/// A request for a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// Where from.
@@ -21,7 +21,7 @@ pub struct Request {
     pub kernel: Kernel,
     /// The window's width and height.
     pub size: (usize, usize),
-    /// What the slice covers.
+    /// The part of the world that the slice covers.
     pub map: Map,
 }
 

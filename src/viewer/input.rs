@@ -113,7 +113,7 @@ impl Keys {
         }
     }
 
-    /// What to do, in the order it was asked for.
+    /// The actions to take, in the order they were asked for.
     pub fn actions(&self) -> Vec<Action> {
         let keys = self.tapped.iter().filter_map(|key| match key {
             Key::Key1 | Key::NumPad1 => Some(Action::Kernel(Kernel::X1)),

@@ -88,7 +88,7 @@ impl Layout {
         (point - self.center) * self.scale + self.middle
     }
 
-    /// What the pane shows of the horizontal plane at height `y`.
+    /// The section of the horizontal plane at height `y` that the pane shows.
     pub fn section(&self, y: f32) -> Section {
         Section { y: y.into(), center: self.center, radius: self.reach(), pixel: 1.0 / self.scale }
     }

@@ -1,4 +1,4 @@
-//! What the window says in words: speed, kernel, threads, keys, messages.
+//! The window's text: speed, kernel, threads, keys, messages.
 
 use super::{draw::Picture, input::HELP, text};
 use crate::render::{Counts, Kernel};
@@ -57,7 +57,7 @@ fn by_kind(counts: &Counts) -> [u64; 4] {
     [counts.primary, counts.shadow, counts.reflection, counts.refraction]
 }
 
-/// What the overlay shows.
+/// The contents of the overlay.
 #[derive(Clone, Debug, Default)]
 pub struct Overlay<'a> {
     /// The scene's name.

@@ -43,7 +43,7 @@ pub struct Section {
     pub center: DVec2,
     /// All that is seen is no further from there.
     pub radius: f64,
-    /// What a pixel measures in the world: outlines are right to a quarter of it.
+    /// The size of a pixel in the world: outlines are right to a quarter of it.
     pub pixel: f64,
 }
 
@@ -62,7 +62,7 @@ impl Section {
     }
 }
 
-/// What lies in the slice below or above a point of the world: its x and z.
+/// The point of the slice below or above a point of the world: its x and z.
 pub fn flat(point: Vec3) -> DVec2 {
     point.as_dvec3().xz()
 }

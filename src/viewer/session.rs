@@ -1,4 +1,4 @@
-//! What the window remembers from frame to frame, apart from the window itself: camera, keys, kernel, messages.
+//! The window's state from frame to frame, apart from the window itself: camera, keys, kernel, messages.
 
 use super::{
     controls::Controls,
@@ -106,7 +106,7 @@ impl Session {
         self.message.as_ref().map(|(text, _)| text.as_str())
     }
 
-    /// What the next frame is to show in a window of this size.
+    /// The request for the next frame in a window of this size.
     pub fn request(&mut self, size: (usize, usize)) -> Request {
         let camera = self.controls.camera();
         self.map.follow(camera.eye);

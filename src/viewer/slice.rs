@@ -25,7 +25,7 @@ const REFRACTION: u32 = 0xC0_60_D0;
 const SHADOW: u32 = 0x34_68_2C;
 const BLOCKED: u32 = 0x68_2C_34;
 const LIGHT: u32 = 0xFF_E8_80;
-/// What the brightest channel of a word has at least.
+/// The least value of a word's brightest channel.
 const LEGIBLE: u32 = 0xE0;
 const LEGEND: [(u32, &str); 5] = [
     (PRIMARY, "primary"),

@@ -101,17 +101,17 @@ pub fn cylinder(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
     Body::aligned(1.0, rng).near_axis(dial, rays, rng)
 }
 
-/// The same for a cylinder along no world axis.
+/// A cylinder along no world axis; see [`Body::near_axis`].
 pub fn tilted_cylinder(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
     Body::tilted(1.0, rng).near_axis(dial, rays, rng)
 }
 
-/// The same for a cone.
+/// A cone; see [`Body::near_axis`].
 pub fn cone(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
     Body::aligned(0.0, rng).near_axis(dial, rays, rng)
 }
 
-/// The same for a cone along no world axis.
+/// A cone along no world axis; see [`Body::near_axis`].
 pub fn tilted_cone(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
     Body::tilted(0.0, rng).near_axis(dial, rays, rng)
 }

@@ -1,4 +1,4 @@
-//! What the makers of cases share: rays by rounding, and drawing again until what was rounded is what was wanted.
+//! Helpers that the makers of cases share: rays by rounding, and drawing again until the rounded numbers are as wanted.
 
 use glam::{DVec3, Vec3};
 

@@ -3,7 +3,7 @@
 //! A [`Generator`] makes a [`Case`] for a setting of its dial: a scene, and rays that are aimed at where the tests of its
 //! subject lose digits. All are in [`ALL`]; [`find`] knows them by name.
 //!
-//! What a dial says holds for the numbers that are traced, not for some that were rounded afterwards: everything is
+//! A dial's value holds for the numbers that are traced, not for some that were rounded afterwards: everything is
 //! made in `f64`, rounded to `f32`, measured in `f64` as rounded, and where that is more than a quarter off the dial,
 //! drawn again (2000 times at the most, then the best is taken). Where a ray's start is said to be *on* a surface, it is
 //! the nearest `f32` to a point that is, computed in `f64`. Directions are unit vectors, rounded. Primitives are in the
@@ -53,7 +53,7 @@ impl Ray {
     }
 }
 
-/// What a case judges.
+/// The subject that a case judges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// The test of planes.
@@ -91,10 +91,10 @@ pub enum Spacing {
     Logarithmic,
 }
 
-/// What is turned to make a case harder.
+/// A dial that is turned to make a case harder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dial {
-    /// What it measures.
+    /// The quantity that it measures.
     pub meaning: &'static str,
     /// In which unit.
     pub unit: &'static str,
@@ -126,7 +126,7 @@ pub struct Case {
     pub description: Description,
     /// Finite but for `t_max`.
     pub rays: Vec<Ray>,
-    /// What is judged.
+    /// The subject that is judged.
     pub subject: Subject,
 }
 
@@ -137,14 +137,14 @@ pub struct Generator {
     pub name: &'static str,
     /// Which rays and which scene, and what is exact about them.
     pub about: &'static str,
-    /// What makes it harder.
+    /// The dial that makes it harder.
     pub dial: Dial,
-    /// What is judged.
+    /// The subject that is judged.
     pub subject: Subject,
     make: fn(f64, usize, &mut Pcg) -> Made,
 }
 
-/// What makers return.
+/// The scene and the rays that makers return.
 type Made = (Description, Vec<Ray>);
 
 impl Generator {

@@ -21,13 +21,13 @@ const SIZE: (&str, &str, f64, f64) = ("size of the primitive", "world units", 1e
 /// A dial for the angle to an axis.
 const TO_AXIS: (&str, &str, f64, f64) = ("angle between ray and axis", "degrees", 1e-7, 90.0);
 
-/// The same where the axis is not exact in `f32`: next to it directions are no denser.
+/// A dial for the angle to an axis that is not exact in `f32`: next to it directions are no denser.
 const TO_TILTED_AXIS: (&str, &str, f64, f64) = ("angle between ray and axis", "degrees", 1e-5, 90.0);
 
 /// A dial for how near a torus's tangents are.
 const CLEARANCE: (&str, &str, f64, f64) = ("distance from the tangent", "minor radii", 1e-8, 0.5);
 
-/// What the rays of the cases `…-leaving` are.
+/// The description of the cases `…-leaving`.
 const LEAVING: &str = "Rays that start at the f32 point nearest to an exact one of the surface, half to each side.";
 
 /// Every case.

@@ -39,7 +39,7 @@ impl Axis {
         Self { low: low - room, high: high + room, none: false }
     }
 
-    /// The same, with a place for 0.
+    /// The axis with a place for 0.
     pub fn with_zero(self) -> Self {
         Self { none: true, ..self }
     }

@@ -9,7 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// Steps a pixel, as the backend counts in whole numbers.
 const FINE: f64 = 2.0;
 
-/// What the backend divides font sizes by.
+/// The number that the backend divides font sizes by.
 const FONT_SCALE: f64 = 1.24;
 
 /// The mean width of a letter, in font sizes.
@@ -49,7 +49,7 @@ impl Font {
     }
 }
 
-/// What stands for a point.
+/// A mark that stands for a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
     Circle,

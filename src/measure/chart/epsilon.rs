@@ -43,7 +43,7 @@ fn table(sweep: &Sweep) -> Table {
     table
 }
 
-/// What a curve is called, its colour and its width.
+/// The name of a curve, its colour and its width.
 fn look(offset: Offset) -> (String, RGBColor, f64) {
     match offset {
         Offset::Method(OffsetMethod::Derived) => ("derived from the rounding (the default)".into(), COLORS[0], 3.5),

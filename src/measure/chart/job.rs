@@ -1,4 +1,4 @@
-//! What a chart is made with, and what comes of it.
+//! The context that a chart is made in, and the result.
 
 use super::table::Table;
 use crate::measure::lab::{Budget, Machine};
@@ -16,7 +16,7 @@ pub struct Chart {
     pub sound: bool,
 }
 
-/// What charts are made with.
+/// The context that charts are made in.
 pub struct Context<'a> {
     /// How much to measure.
     pub budget: &'a Budget,

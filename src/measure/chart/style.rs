@@ -1,4 +1,4 @@
-//! What all charts have in common: colours, fonts, headings, legends.
+//! The style that all charts share: colours, fonts, headings, legends.
 
 use plotters::prelude::RGBColor;
 
@@ -57,7 +57,7 @@ pub fn caption(canvas: &mut Canvas, height: f64, lines: &[String], machine: &Mac
     }
 }
 
-/// What a legend's entry looks like in the chart.
+/// The look of a legend's entry in the chart.
 #[derive(Clone, Copy, Debug)]
 pub enum Key {
     Line(RGBColor, f64),

@@ -22,7 +22,7 @@ impl Table {
         self.push_cells(row.iter().map(|cell| cell.to_string()).collect());
     }
 
-    /// The same, of cells as they are.
+    /// Adds a row of finished cells, as many as the head has.
     pub fn push_cells(&mut self, row: Vec<String>) {
         debug_assert_eq!(row.len(), self.head.len());
         self.rows.push(row);

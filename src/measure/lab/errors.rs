@@ -81,7 +81,8 @@ impl Errors {
         Self::together(vec![Self::sample(scene, shapes, rays, truths, answers)])
     }
 
-    /// The same, before quantiles are taken, so that samples from several scenes can be put [together](Self::together).
+    /// The errors before quantiles are taken, so that samples from several scenes can be put
+    /// [together](Self::together).
     pub fn sample(
         scene: &Scene,
         shapes: &[Shape],

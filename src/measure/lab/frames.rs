@@ -112,7 +112,7 @@ fn frames_of(name: &'static str, budget: &Budget, progress: &dyn Fn(f32)) -> Res
     Ok(FramesOf { scene: name, frames: paired().map(frame).collect(), same })
 }
 
-/// What the methods of the plan are called.
+/// The name of the plan's methods.
 const PLANNED: &str = "planned";
 
 /// The plan at every width, and every other method of what the scene has at the widest.

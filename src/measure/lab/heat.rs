@@ -19,7 +19,7 @@ use crate::trace::Hit;
 /// Rays that leave every pixel's surface where acne is looked for.
 const SPAWNED: usize = 32;
 
-/// What a pixel shows.
+/// A pixel of a heat map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
     /// A miss, as it should be.
@@ -50,7 +50,7 @@ pub struct HeatName {
     pub name: &'static str,
     /// As a heading.
     pub title: &'static str,
-    /// What the scene is.
+    /// A description of the scene.
     pub about: &'static str,
 }
 

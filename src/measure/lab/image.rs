@@ -2,7 +2,7 @@
 
 use crate::render::{Film, tone_map};
 
-/// What differs between two pictures on the sRGB curve, cut off at black and white.
+/// The difference between two pictures on the sRGB curve, cut off at black and white.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
     /// The share of pixels of which a channel differs by more than 1/255, 0 to 1.

@@ -8,12 +8,12 @@ use crate::measure::cases::Subject;
 pub struct Method {
     /// As it is called on the command line.
     pub name: &'static str,
-    /// What to compile with; nothing where there is no choice.
+    /// The choice to compile with; nothing where there is none.
     pub choice: Option<Choice>,
 }
 
 impl Method {
-    /// What to compile a scene with.
+    /// The choices to compile a scene with.
     pub fn choices(&self) -> &[Choice] {
         self.choice.as_slice()
     }

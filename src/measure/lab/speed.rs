@@ -77,7 +77,7 @@ pub struct Point {
 /// The methods of one subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpeedOf {
-    /// What is tested.
+    /// The subject that is tested.
     pub subject: Subject,
     /// By method, then by width.
     pub points: Vec<Point>,
@@ -90,8 +90,8 @@ pub struct SpeedOf {
 /// Measures spheres, triangles and tori, one primitive each, with rays from eyes 2 to 1000 of its radii away that pass its
 /// centre by up to 1.1 radii; 256 rays share an eye, as those of a tile do.
 ///
-/// What is timed is the query from the batch's bounds to the stored answer, on one thread. All methods and widths take
-/// turns, so that a drift of the machine hits all alike; the first turn warms up and is not counted.
+/// The time is that of the query from the batch's bounds to the stored answer, on one thread. All methods and widths
+/// take turns, so that a drift of the machine hits all alike; the first turn warms up and is not counted.
 ///
 /// # Errors
 /// [`Invalid`] when a scene does not compile; these do.

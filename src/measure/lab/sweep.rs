@@ -59,7 +59,7 @@ pub struct OffsetCurve {
     pub leaks: Vec<f64>,
 }
 
-/// What the sweep found.
+/// The findings of the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     /// Sizes of the scene, world units.

@@ -1,4 +1,4 @@
-//! What the oracle asks of every kind of primitive, and what their files share.
+//! The oracle's questions to every kind of primitive, and the helpers that their files share.
 
 use std::cmp::Ordering;
 
@@ -20,7 +20,7 @@ pub trait Body {
     fn thickness(&self) -> f64;
 }
 
-/// What a description lists: a primitive, or a mesh of them.
+/// An element of a description: a primitive, or a mesh of them.
 pub trait Described {
     /// The primitives' type.
     type Body: Body;

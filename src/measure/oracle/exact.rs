@@ -202,7 +202,7 @@ impl Mul for &Exact {
     }
 }
 
-/// The same for values, so that formulae read like formulae.
+/// The operators for values, so that formulae read like formulae.
 macro_rules! by_value {
     ($($trait:ident $method:ident)*) => {$(
         impl $trait for Exact {

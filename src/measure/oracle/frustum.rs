@@ -1,5 +1,5 @@
-//! What cylinders and cones have in common: both are frusta. With q = p − base, the axis w = apex − base and the radii
-//! r₀ and r₁, a point at q·w between 0 and w² lies on the side where
+//! Frusta: both cylinders and cones. With q = p − base, the axis w = apex − base and the radii r₀ and r₁, a point at
+//! q·w between 0 and w² lies on the side where
 //!
 //! w² |q × w|² = (r₀ w² + (r₁ − r₀) q·w)²,
 //!
@@ -14,7 +14,7 @@ use super::exact::{Exact, Exact3, along, cross, dot, minus, times};
 use super::root::Root;
 use crate::scene::Sides;
 
-/// What cylinders and cones are.
+/// A cylinder or cone.
 pub struct Frustum {
     pub base: Vec3,
     pub apex: Vec3,

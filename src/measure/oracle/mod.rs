@@ -144,7 +144,7 @@ pub fn nearest(shape: &Shape, ray: &Ray, t_min: f64, t_max: f64) -> Option<Truth
     nearest_from(shape, ray.origin.as_dvec3(), ray, [t_min, t_max])
 }
 
-/// The same for a ray that starts elsewhere.
+/// The nearest hit of a ray that starts at `origin` instead of its own.
 fn nearest_from(shape: &Shape, origin: DVec3, ray: &Ray, interval: [f64; 2]) -> Option<Truth> {
     let (origin, direction) = (exact::vector(origin)?, exact3(ray.direction)?);
     let square = exact::dot(&direction, &direction);

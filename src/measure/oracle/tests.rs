@@ -1,7 +1,7 @@
-//! What is checked, and by what: [`arithmetic`] the numbers; [`residuals`] roots by the implicit equations in the rational
-//! numbers of another crate, and that there is none before by Descartes' rule of signs; [`faces`] flat shapes by Cramer's
-//! rule and sponges by all their cubes; [`closed`] cases known by hand; [`nearby`] what is settled; [`against`] everything
-//! by the `f64` reference.
+//! The checks and their means: [`arithmetic`] the numbers; [`residuals`] roots by the implicit equations in the
+//! rational numbers of another crate, and that there is none before by Descartes' rule of signs; [`faces`] flat shapes
+//! by Cramer's rule and sponges by all their cubes; [`closed`] cases known by hand; [`nearby`] what is settled;
+//! [`against`] everything by the `f64` reference.
 use super::*;
 use crate::scene::{Cone, Cuboid, Cylinder, Fractal, Plane, Quad, Sides, Sphere, Torus};
 use glam::vec3;

@@ -32,7 +32,7 @@ impl Answers<'_> {
     }
 }
 
-/// What differs between a tracer and the reference, and how much of it the error bound leaves unexplained.
+/// The differences between a tracer and the reference, and how much of them the error bound leaves unexplained.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
     /// Pixel-centre rays.

@@ -183,7 +183,7 @@ fn touching(before: f32) -> Description {
 const SPHERE: u32 = 0;
 const CYLINDER: u32 = 1;
 
-/// What becomes of an answer that says `primitive` in the middle of [`touching`], at the primitive's own distance or
+/// Judges an answer that says `primitive` in the middle of [`touching`], at the primitive's own distance or
 /// where there is none the cylinder's, times `1 + off`: how many hits differ, and how many are unexplained.
 fn judged(before: f32, primitive: u32, off: f64) -> [usize; 2] {
     let scene = touching(before);

@@ -101,7 +101,7 @@ impl Truth {
         false
     }
 
-    /// What surrounds a pixel's ray, where the reference hit what it hit and the other tracer hit `primitive`.
+    /// The neighbourhood of a pixel's ray, where the reference hit what it hit and the other tracer hit `primitive`.
     fn around(&self, i: usize, primitive: u32) -> Neighbourhood {
         let [width, height] = self.size;
         let (x, y) = ((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);

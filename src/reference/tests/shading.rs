@@ -1,4 +1,4 @@
-//! What a ray sees.
+//! The radiance along rays.
 use super::*;
 use crate::scene::{Light, Sky};
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cones;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, axis, end_radius, place, require};
 use crate::scene::{Invalid, Sides};
 
@@ -46,6 +46,7 @@ pub(crate) struct ConeFile {
 
 impl Element for ConeFile {
     type Kind = Cone;
+    const KEY: &'static str = Cone::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Cone, Fault> {
         Ok(Cone {

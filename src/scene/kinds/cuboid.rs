@@ -7,7 +7,7 @@ use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cuboids;
 use crate::scene::Invalid;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, MIN_RADIUS, angles, place, require, triple};
 
 /// A box, seen from outside and inside.
@@ -40,6 +40,7 @@ pub(crate) struct BoxFile {
 
 impl Element for BoxFile {
     type Kind = Cuboid;
+    const KEY: &'static str = Cuboid::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Cuboid, Fault> {
         let rotation = self.rotation.map(Vec3::from).unwrap_or_default();

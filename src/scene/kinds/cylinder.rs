@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cylinders;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, axis, place, size};
 use crate::scene::{Invalid, Sides};
 
@@ -45,6 +45,7 @@ pub(crate) struct CylinderFile {
 
 impl Element for CylinderFile {
     type Kind = Cylinder;
+    const KEY: &'static str = Cylinder::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Cylinder, Fault> {
         let material = reader.material(self.material)?;

@@ -7,7 +7,7 @@ use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Fractals;
 use crate::scene::Invalid;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, place, require, size};
 
 /// The most iterations of a fractal: its smallest cubes are 3⁻⁸ of the whole, some thousand ε.
@@ -42,6 +42,7 @@ pub(crate) struct FractalFile {
 
 impl Element for FractalFile {
     type Kind = Fractal;
+    const KEY: &'static str = Fractal::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Fractal, Fault> {
         let material = reader.material(self.material)?;

@@ -15,14 +15,14 @@ mod triangle;
 
 use glam::Vec3;
 
-use super::read::Elements;
+use super::read::toml::elements::Elements;
 use super::rules::At;
 use super::{Description, Invalid, Plan, Sides};
 use crate::bvh::Aabb;
 use crate::geometry::methods::Methods;
 use crate::kinds::for_each_kind;
 
-/// What a kind of primitive is called and how it is tested.
+/// The names of a kind of primitive and of its default method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KindName {
     /// One of them, as the scene file spells it: `box`.
@@ -35,11 +35,11 @@ pub struct KindName {
 
 /// A kind of primitive as the user writes it: one value is one element of a scene file.
 pub(crate) trait Kind: Sized {
-    /// What it is called.
+    /// The kind's names.
     const NAME: KindName;
     /// The key of its array, as messages spell it.
     const KEY: &'static str = Self::NAME.one;
-    /// What a primitive counts for when the plan weighs whether a tree is faster (measured).
+    /// The weight of a primitive when the plan decides whether a tree is faster (measured).
     const WEIGHT: usize = 4;
     /// Whether scenes of nothing rarer have kernels of their own, that test it.
     const PLAIN: bool = false;

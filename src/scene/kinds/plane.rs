@@ -7,7 +7,7 @@ use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Planes;
 use crate::scene::Invalid;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, direction, offset};
 
 /// An infinite plane: the points p with p·normal + distance = 0. Seen from both sides.
@@ -35,6 +35,7 @@ pub(crate) struct PlaneFile {
 
 impl Element for PlaneFile {
     type Kind = Plane;
+    const KEY: &'static str = Plane::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Plane, Fault> {
         Ok(Plane { normal: self.normal.into(), distance: self.distance, material: reader.material(self.material)? })

@@ -7,7 +7,7 @@ use super::{Kind, KindName, triangle_near};
 use crate::bvh::Aabb;
 use crate::geometry::Quads;
 use crate::scene::Invalid;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, area, place};
 
 /// The parallelogram of the points corner + a u + b v, a and b from 0 to 1; seen from both sides. The front is where
@@ -38,6 +38,7 @@ pub(crate) struct QuadFile {
 
 impl Element for QuadFile {
     type Kind = Quad;
+    const KEY: &'static str = Quad::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Quad, Fault> {
         let material = reader.material(self.material)?;

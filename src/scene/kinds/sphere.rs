@@ -7,7 +7,7 @@ use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Spheres;
 use crate::geometry::methods::{Methods, SphereMethod};
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, length, point};
 use crate::scene::{Invalid, Plan, Sides};
 
@@ -38,6 +38,7 @@ pub(crate) struct SphereFile {
 
 impl Element for SphereFile {
     type Kind = Sphere;
+    const KEY: &'static str = Sphere::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Sphere, Fault> {
         let material = reader.material(self.material)?;

@@ -8,7 +8,7 @@ use crate::bvh::Aabb;
 use crate::geometry::Tori;
 use crate::geometry::methods::{Methods, TorusMethod};
 use crate::scene::Invalid;
-use crate::scene::read::{Array, Element, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, direction, place, require, size};
 
 /// A torus: the points at `minor_radius` from the circle of `major_radius` about `center`, across `axis`. Seen from
@@ -44,6 +44,7 @@ pub(crate) struct TorusFile {
 
 impl Element for TorusFile {
     type Kind = Torus;
+    const KEY: &'static str = Torus::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Torus, Fault> {
         Ok(Torus {

@@ -9,7 +9,7 @@ use super::{Kind, KindName, triangle_near};
 use crate::bvh::Aabb;
 use crate::geometry::methods::{Methods, TriangleMethod};
 use crate::geometry::{Primitives, Triangles};
-use crate::scene::read::{Array, Element, Exactly, Fault, Reader, Triple};
+use crate::scene::read::toml::elements::{Array, Element, Exactly, Fault, Reader, Triple};
 use crate::scene::rules::{At, area, direction, require, vertex};
 use crate::scene::{Invalid, Material, Sides};
 
@@ -51,6 +51,7 @@ pub(crate) struct MeshFile {
 
 impl Element for MeshFile {
     type Kind = Mesh;
+    const KEY: &'static str = Mesh::KEY;
 
     fn describe(self, reader: &mut Reader<'_>) -> Result<Mesh, Fault> {
         let material = self.material.map(|name| reader.material(Some(name))).transpose()?;

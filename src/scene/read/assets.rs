@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{ReadError, bytes_of};
+use super::{error::ReadError, source::bytes_of};
 
 /// The files of the built-in scenes, as the scenes name them.
 static BUILTIN: [(&str, &[u8]); 3] = [
@@ -26,7 +26,7 @@ impl Assets {
         Self::Folder(file.parent().unwrap_or(Path::new("")).into())
     }
 
-    /// What a file is called in messages. Equal paths are the same file.
+    /// The path by which messages name a file. Equal paths are the same file.
     pub fn path(&self, name: &str) -> PathBuf {
         match self {
             Self::Folder(folder) => folder.join(name),

@@ -11,7 +11,12 @@ use std::{
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-use super::{ReadError, assets::Assets, bytes_of, one_line, radiance};
+use super::{
+    assets::Assets,
+    error::{ReadError, one_line},
+    radiance,
+    source::bytes_of,
+};
 use crate::{math::linear_of_bytes, scene::Texture};
 
 /// The most pixels of a side of an image.
@@ -54,7 +59,7 @@ impl<'a> Images<'a> {
         self.texture_from(self.assets.path(file), |images| images.bytes(file))
     }
 
-    /// The same for a file that a mesh names, by its whole path.
+    /// The index of the texture of a file that a mesh names, by its whole path.
     pub fn texture_at(&mut self, path: PathBuf) -> Result<usize, ReadError> {
         self.texture_from(path.clone(), |images| {
             let bytes = bytes_of(&path, images.bytes_left)?;

@@ -7,7 +7,10 @@ use std::{
     path::Path,
 };
 
-use super::{Progress, ReadError, open};
+use super::{
+    error::ReadError,
+    source::{Progress, open},
+};
 
 /// The longest line, with those that continue it: a face of as many corners as may be fits.
 const MAX_LINE: u64 = 4 << 20;

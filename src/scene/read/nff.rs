@@ -24,11 +24,18 @@ use std::{
 use glam::{DVec3, Vec3};
 
 use self::tokens::Tokens;
-use super::{MAX_NFF_BYTES, Progress, ReadError, open, polygon};
+use super::{
+    error::ReadError,
+    polygon,
+    source::{Progress, open},
+};
 use crate::scene::{
     CameraDescription, Cone, Cylinder, Description, Invalid, Light, Material, Mesh, Pigment, Settings, Sides, Sky,
     Sphere, check, rules,
 };
+
+/// The largest NFF file that is read. Reading takes up to about ten times its size in memory.
+pub const MAX_NFF_BYTES: u64 = 256 << 20;
 
 /// The number of segments of a path, by the format's convention.
 const DEPTH: u32 = 5;
@@ -274,7 +281,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
         Ok(v)
     }
 
-    /// What has been read, if there is a view.
+    /// The scene that has been read, if there is a view.
     fn finish(self) -> Option<Description> {
         let n = self.lights.len() as f64;
         let intensity = if n > 0.0 { Vec3::splat((n.sqrt() / (2.0 * n)) as f32) } else { Vec3::ZERO };
@@ -310,7 +317,7 @@ struct Materials {
     known: HashMap<[u32; 8], usize>,
     /// How many transmit.
     bodies: usize,
-    /// What the next object wears; nothing before the first `f`.
+    /// The material of the next object; none before the first `f`.
     worn: Option<usize>,
 }
 

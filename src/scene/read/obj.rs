@@ -6,8 +6,10 @@
 //! of the line; without any `mtllib` they mean nothing.
 
 mod alone;
+mod budget;
 mod corners;
 mod mtl;
+mod numbers;
 
 use std::{
     collections::{HashMap, HashSet},
@@ -18,32 +20,21 @@ use std::{
 use glam::{Vec2, Vec3};
 
 pub(in crate::scene) use self::alone::alone;
+pub(super) use self::budget::Budget;
+pub use self::budget::MAX_OBJ_BYTES;
 use self::{
+    budget::MAX_TRIANGLES,
     corners::{Columns, NONE, Triple, Vertices},
     mtl::Library,
+    numbers::numbers,
 };
-use super::{MAX_OBJ_BYTES, Progress, ReadError, assets::Assets, image::Images, lines::Lines, polygon};
+use super::{assets::Assets, error::ReadError, image::Images, lines::Lines, polygon, source::Progress};
 use crate::scene::{Material, Mesh, rules};
-
-/// The most triangles of all mesh files together. A polygon may make one of every two bytes.
-const MAX_TRIANGLES: usize = 1 << 25;
 
 /// The most materials of a file.
 const MAX_MATERIALS: usize = 1 << 16;
 
-/// What all mesh files of a scene may still take.
-pub(super) struct Budget {
-    bytes: u64,
-    triangles: usize,
-}
-
-impl Default for Budget {
-    fn default() -> Self {
-        Self { bytes: MAX_OBJ_BYTES, triangles: MAX_TRIANGLES }
-    }
-}
-
-/// What a file holds.
+/// The contents of a file.
 pub(in crate::scene) struct Model {
     /// Its `materials` are indices into those below; the number of them stands for no material.
     pub mesh: Mesh,
@@ -346,20 +337,6 @@ impl Groups {
         }
         Ok((materials, self.triangles, bare))
     }
-}
-
-/// Up to N numbers, and how many words there are; more than eight are not looked at.
-fn numbers<'w, const N: usize>(words: impl Iterator<Item = &'w str>) -> Result<([f32; N], usize), String> {
-    let mut numbers = [0.0; N];
-    let mut count = 0;
-    for word in words.take(8) {
-        let number = word.parse().map_err(|_| format!("not a number: {word}"))?;
-        if let Some(place) = numbers.get_mut(count) {
-            *place = number;
-        }
-        count += 1;
-    }
-    Ok((numbers, count))
 }
 
 /// x y z, and perhaps a weight or a colour (map3, or four with alpha), of which only the weight counts.

@@ -19,7 +19,7 @@ impl Folder {
         self.0.path().join(name)
     }
 
-    /// What reading `m.obj` gives, messages without the folder's own path.
+    /// Reads `m.obj`; messages come without the folder's own path.
     fn model(&self) -> Result<(Model, Vec<Arc<Texture>>), String> {
         let assets = Assets::beside(&self.path("m.obj"));
         let mut images = Images::new(&assets);

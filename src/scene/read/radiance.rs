@@ -12,7 +12,7 @@ pub(super) fn is_radiance(bytes: &[u8]) -> bool {
     bytes.starts_with(b"#?RADIANCE") || bytes.starts_with(b"#?RGBE")
 }
 
-/// What remains of a file.
+/// The bytes of a file that are still to be read.
 struct Bytes<'a>(&'a [u8]);
 
 impl<'a> Bytes<'a> {

@@ -1,45 +1,23 @@
 //! The scene file format: TOML to [`Description`].
 
-mod elements;
+pub(in crate::scene) mod elements;
 mod file;
 mod materials;
+mod value;
 mod view;
 
 use std::path::Path;
 
-use glam::Vec3;
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
-pub(crate) use self::elements::{Array, Element, Elements, Fault, Reader};
-use self::{file::SceneFile, materials::Names};
-use super::{
-    Progress, ReadError,
-    assets::Assets,
-    image::Images,
-    obj, place,
-    strict::{Exactly, Table},
-};
+use self::{elements::Reader, file::SceneFile, materials::Names};
+use super::{assets::Assets, error::ReadError, image::Images, obj::Budget, place, source::Progress, strict::Table};
 use crate::scene::{Description, Invalid, check};
 
 /// The most tables of a file without a header, as [`tables`] counts: more than the shortest primitives that fit into it.
 /// A table takes about 1500 bytes of memory, and two bytes are enough to make one: `a.a.a`.
 const MAX_TABLES: usize = 1 << 20;
-
-/// A vector or colour.
-pub(crate) type Triple = Exactly<f32, 3>;
-
-impl From<Triple> for Vec3 {
-    fn from(triple: Triple) -> Self {
-        triple.0.into()
-    }
-}
-
-impl From<Vec3> for Triple {
-    fn from(v: Vec3) -> Self {
-        Exactly(v.into())
-    }
-}
 
 pub(super) fn parse(
     text: &str,
@@ -115,7 +93,7 @@ fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<
         lights: scene.light.into_iter().map(|Table(light)| light.describe()).collect(),
         ..Description::default()
     };
-    let mut reader = Reader { names, images, assets, budget: obj::Budget::default(), progress };
+    let mut reader = Reader { names, images, assets, budget: Budget::default(), progress };
     scene.primitives.describe(&mut reader, &mut description)?;
     description.materials = reader.names.materials;
     description.textures = reader.images.textures;

@@ -21,8 +21,8 @@ const GROUP: usize = PACKET;
 const WIDEST: f32 = 0.5;
 /// How far apart they may be at the far side of the scene, in sizes of the tree's blocks, for a group to stay whole.
 const FAR: f32 = 1.5;
-/// The same for the smallest group not to become a packet; first for a common origin, from where its rays spread before
-/// they meet anything.
+/// How far apart they may be there for the smallest group not to become a packet; first for a common origin, from where
+/// its rays spread before they meet anything.
 const FAR_ALONE: [f32; 2] = [3.0, 20.0];
 /// How far apart the origins may be, for both.
 const NEAR: [f32; 2] = [1.0, 1.5];
@@ -101,7 +101,7 @@ impl Walk<'_> {
         }
     }
 
-    /// What no box holds: the planes.
+    /// Tests the planes, which no box holds.
     fn planes<Q: Query, L: Lanes>(&mut self, bounds: &Bounds) {
         let planes = &self.scene.planes;
         for i in (0..planes.len()).filter(|&i| !bounds.miss_plane(planes, i)) {

@@ -1,4 +1,4 @@
-//! What holds for all rays of a group, against eight boxes at once.
+//! Bounds of all rays of a group, tested against eight boxes at once.
 //!
 //! A ray is between two faces across an axis from (low − o) / d to (high − o) / d. Of rays that start from `o` between
 //! `min` and `max` and run along `d` likewise, none enters before u = (low − max) / d.max and none leaves after
@@ -32,7 +32,8 @@ pub const TINY: f32 = 1e-18;
 pub struct Beam {
     /// Per axis: the inverse that the faces where rays enter are multiplied by, and what is taken from that.
     near: [(f32x8, f32x8); 3],
-    /// The same for where they leave; for an axis with rays of both directions, where the others enter.
+    /// The inverse and what is taken, for the faces where rays leave; for an axis with rays of both directions, where
+    /// the others enter.
     far: [(f32x8, f32x8); 3],
     /// Which end of a box is the near one: 0 for `min`.
     side: [usize; 3],

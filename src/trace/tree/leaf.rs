@@ -49,7 +49,7 @@ pub struct Alone {
     pub packet: Packet<f32x8>,
     /// The axis of its direction's largest component.
     pub major: usize,
-    /// What its direction is sheared by for triangles.
+    /// The shear of its direction for triangles.
     pub shear: [f32x8; 2],
 }
 
@@ -199,7 +199,7 @@ fn packets<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
     taken
 }
 
-/// The same by a method that was asked for.
+/// [`packets`] by a method that was asked for.
 #[inline(never)]
 fn packets_named<Q: Query, K: Bounded, L: Lanes>(
     walk: &mut Walk,
@@ -226,7 +226,7 @@ fn eight<Q: Query, K: Bounded, T: Test<K>>(
     found.is_some_and(|(t, inside)| take_eight::<Q>(walk, ray.i, t, inside, &block.id))
 }
 
-/// The same by a method that was asked for.
+/// [`eight`] by a method that was asked for.
 #[inline(never)]
 fn eight_named<Q: Query, K: Bounded>(
     walk: &mut Walk,

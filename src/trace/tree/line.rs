@@ -7,15 +7,15 @@ use wide::{f32x8, f32x16};
 
 use super::beam::{PAD, TINY};
 
-/// What the boxes are met with, a column a number, made for many rays at once.
+/// The rays as boxes are tested with them, a column a number, made for many rays at once.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Lines {
     /// Per axis, 1 / d.
     pub inverse: [[f32; BATCH]; 3],
-    /// What is taken from the near face times that.
+    /// The number subtracted from the near face times the inverse.
     pub near: [[f32; BATCH]; 3],
-    /// And from the far face.
+    /// The number subtracted from the far face times the inverse.
     pub far: [[f32; BATCH]; 3],
 }
 
@@ -54,9 +54,9 @@ impl Lines {
 pub struct Line {
     /// Per axis, 1 / d.
     inverse: [f32x8; 3],
-    /// What is taken from the near face times that.
+    /// The number subtracted from the near face times the inverse.
     near: [f32x8; 3],
-    /// And from the far face.
+    /// The number subtracted from the far face times the inverse.
     far: [f32x8; 3],
     /// Which end of a box is the near one.
     side: [usize; 3],

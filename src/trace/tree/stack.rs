@@ -30,7 +30,7 @@ impl Entry {
     }
 }
 
-/// What is left, the nearest of every node's on top.
+/// Entries still to be visited, the nearest of every node's on top.
 #[derive(Clone, Debug)]
 pub struct Stack {
     entries: [Entry; ROOM],
@@ -138,7 +138,7 @@ pub struct Part {
     pub lanes: u32,
 }
 
-/// What is left of a packet's way, the nearest of every node's on top.
+/// Parts of a packet's way that are still to be visited, the nearest of every node's on top.
 #[derive(Clone, Debug)]
 pub struct Parts {
     parts: [Part; ROOM],

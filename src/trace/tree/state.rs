@@ -1,4 +1,4 @@
-//! What is known of a batch's rays on the way.
+//! The state of a batch's rays on their way through a tree.
 
 use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, NONE, RayBatch, Vec3};
@@ -21,9 +21,9 @@ pub struct State {
     shear: [[f32; BATCH]; 2],
     /// Rays of packets, and those traced alone.
     pub lines: Lines,
-    /// What the ray or the group that is on its way has put aside.
+    /// Entries that the ray or the group on its way has put aside.
     pub stack: Stack,
-    /// What the packet that is on its way has.
+    /// Parts that the packet on its way has put aside.
     pub parts: Parts,
 }
 
@@ -78,7 +78,7 @@ impl State {
         }
     }
 
-    /// What the triangles' test shears packet `at` by.
+    /// The shear of packet `at` for the triangles' test.
     #[inline(always)]
     pub fn shear<L: Lanes>(&self, at: usize) -> [L; 2] {
         [L::load(&self.shear[0][at..]), L::load(&self.shear[1][at..])]

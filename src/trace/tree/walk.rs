@@ -1,4 +1,4 @@
-//! What a traversal works on.
+//! The data that a traversal works on.
 
 use super::state::State;
 use crate::bvh::Bvh;

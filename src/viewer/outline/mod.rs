@@ -1,7 +1,7 @@
-//! What the slice needs of each kind of primitive, a file a kind: the outline that a horizontal plane cuts out of it, and
+//! Each kind of primitive as the slice shows it, a file a kind: the outline that a horizontal plane cuts out of it, and
 //! how far it spreads on the map.
 //!
-//! What is curved but no circle comes as segments. There are as many as the pane can show, and none where it shows
+//! Curves other than circles come as segments. There are as many as the pane can show, and none where it shows
 //! nothing, so that the work of a frame is bounded by the primitives' number and the pane's size.
 
 mod cone;

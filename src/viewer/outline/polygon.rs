@@ -1,9 +1,9 @@
-//! What is flat and convex: a segment.
+//! Outlines of flat convex shapes: a segment.
 
 use crate::viewer::section::Cut;
 use glam::{DVec3, Vec3Swizzles};
 
-/// What the plane cuts out of a convex polygon.
+/// The segment that the slice's plane cuts out of a convex polygon.
 ///
 /// A corner on the slice counts as above it, so that neighbours agree on a shared edge and corner, and a polygon that
 /// lies in the slice is not cut.

@@ -1,4 +1,4 @@
-//! What bodies of revolution have in common in the slice: cylinders, cones, tori.
+//! The geometry that bodies of revolution share in the slice: cylinders, cones, tori.
 //!
 //! The vertical plane through a body's axis is a plane of symmetry, and meets the slice in a line. t runs along it, and
 //! w is the distance from it in the slice. In that vertical plane, a point of the line is at s along the axis
@@ -90,7 +90,7 @@ impl Tilt {
     }
 }
 
-/// What is cut out of a cylinder or cone between its `ends`: conic sections, and the caps' chords.
+/// The outlines of a cylinder or cone between its `ends`: conic sections, and the caps' chords.
 pub fn side_cuts(ends: [Vec3; 2], radii: [f32; 2], caps: bool, section: &Section, emit: &mut dyn FnMut(Cut)) {
     let [base, apex] = ends.map(|end| end.as_dvec3());
     let (radii, axis) = (radii.map(f64::from), apex - base);

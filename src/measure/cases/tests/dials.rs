@@ -7,7 +7,7 @@ use glam::{DVec3, dvec3};
 use super::surfaces::torus;
 use super::*;
 
-/// What the makers allow, and a little for another formula.
+/// Whether a dial is met as nearly as the makers allow, and a little for another formula.
 fn agrees(found: f64, wanted: f64) -> bool {
     draw::off(found, wanted) <= 0.26
 }

@@ -104,7 +104,7 @@ fn normals() {
     }
 }
 
-/// What touches hits, at one t only; what is one f32 aside misses.
+/// A ray that touches hits, at one t only; one that is one f32 aside misses.
 #[test]
 fn tangents() {
     let tangents = [
@@ -154,7 +154,7 @@ fn double_roots_of_tori() {
     assert_eq!(all(&horn, Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X)), [3.0, 5.0, 7.0]);
 }
 
-/// What f64 cannot even say: 1 above a sphere as large as 10¹⁸.
+/// A distance that f64 cannot even express: 1 above a sphere as large as 10¹⁸.
 #[test]
 fn far_and_huge_spheres() {
     let radius = 1e18f32;

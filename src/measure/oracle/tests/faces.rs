@@ -1,4 +1,4 @@
-//! What is flat: planes, triangles and parallelograms by Cramer's rule, boxes by their corners, sponges by all cubes.
+//! Flat faces: planes, triangles and parallelograms by Cramer's rule, boxes by their corners, sponges by all cubes.
 use super::rational::{Rational3, assert_rounded, at, cross, dot, rational, rational3, sub};
 use super::*;
 use dashu_ratio::RBig;

@@ -1,4 +1,4 @@
-//! What is settled and what is not, by clearances known by hand.
+//! Settled and unsettled hits, by clearances known by hand.
 use super::*;
 
 const W: f64 = 1.0 / 1024.0;

@@ -1,11 +1,11 @@
-//! What an NFF file consists of: tokens with white space between, and comments from `#` to the end of the line.
+//! The tokens of an NFF file, with white space between, and comments from `#` to the end of the line.
 
 use std::{
     io::{self, BufRead},
     path::Path,
 };
 
-use super::super::ReadError;
+use super::super::error::ReadError;
 
 /// The most bytes of a token: more than any number needs.
 const MAX_TOKEN: usize = 256;

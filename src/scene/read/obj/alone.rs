@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glam::{DVec3, Vec3};
 
-use super::{Budget, read_path};
+use super::{budget::Budget, read_path};
 use crate::scene::{
     CameraDescription, Description, Light, Material, Mesh, Pigment, Plane, Settings, Sky, check,
-    read::{Assets, Progress, ReadError, image::Images},
+    read::{assets::Assets, error::ReadError, image::Images, source::Progress},
 };
 
 /// How far the camera is from the middle, in diagonals of the bounding box.

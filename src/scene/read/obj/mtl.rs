@@ -21,10 +21,10 @@ use std::{
 
 use glam::Vec3;
 
-use super::{Budget, numbers};
+use super::{budget::Budget, numbers::numbers};
 use crate::scene::{
     Material, Pigment,
-    read::{ReadError, image::Images, lines::Lines},
+    read::{error::ReadError, image::Images, lines::Lines},
 };
 
 /// The materials of all libraries of an OBJ file. Where several have the same name, the first counts.

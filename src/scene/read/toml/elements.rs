@@ -3,20 +3,16 @@
 use serde::de::{DeserializeOwned, MapAccess};
 
 use super::materials::Names;
-use crate::kinds::for_each_kind;
-use crate::scene::kinds::Kind;
-use crate::scene::read::{Progress, assets::Assets, image::Images, obj, strict::Table};
-use crate::scene::{Description, Invalid, Material};
-
-/// What is wrong with a key of an element.
-pub(crate) struct Fault(pub &'static str, pub String);
+pub(in crate::scene) use super::value::{Exactly, Fault, Triple};
+use crate::scene::read::{assets::Assets, image::Images, obj, source::Progress, strict::Table};
+use crate::scene::{Invalid, Material};
 
 /// The table of one element of an array of primitives.
 pub(crate) trait Element: DeserializeOwned {
-    /// What it becomes.
-    type Kind: Kind;
+    /// The kind of primitive that it becomes.
+    type Kind;
     /// The key of its array.
-    const KEY: &'static str = <Self::Kind as Kind>::KEY;
+    const KEY: &'static str;
 
     /// Makes it that.
     fn describe(self, reader: &mut Reader<'_>) -> Result<Self::Kind, Fault>;
@@ -24,8 +20,8 @@ pub(crate) trait Element: DeserializeOwned {
 
 /// One array of the scene file, or several one after the other, that become primitives of one kind.
 pub(crate) trait Elements: Default {
-    /// What they become.
-    type Kind: Kind;
+    /// The kind of primitive that they become.
+    type Kind;
 
     /// Their keys.
     fn keys() -> Vec<&'static str>;
@@ -81,7 +77,7 @@ impl<A: Elements, B: Elements<Kind = A::Kind>> Elements for (A, B) {
     }
 }
 
-/// What elements refer to: materials and files.
+/// The materials and files that elements refer to.
 pub(crate) struct Reader<'a> {
     pub(super) names: Names,
     pub(super) images: Images<'a>,
@@ -107,28 +103,3 @@ impl Reader<'_> {
         obj::read(self.assets, file, images, &mut self.budget, self.progress).map_err(|error| error.to_string())
     }
 }
-
-/// All arrays of primitives, from the list of kinds.
-macro_rules! primitives {
-    ($($group:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
-        /// The primitives of a scene file.
-        #[derive(Default)]
-        pub(super) struct Primitives {
-            $($($field: <crate::scene::$Kind as Kind>::Elements,)*)*
-        }
-
-        impl Primitives {
-            /// Takes the value of a key, if it is one of theirs.
-            pub(super) fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
-                Ok(false $($(|| self.$field.take(key, map)?)*)*)
-            }
-
-            /// Puts them into the description.
-            pub(super) fn describe(self, reader: &mut Reader<'_>, into: &mut Description) -> Result<(), Invalid> {
-                $($(into.$field = self.$field.describe(reader)?;)*)*
-                Ok(())
-            }
-        }
-    };
-}
-for_each_kind! { primitives }

@@ -7,14 +7,15 @@ use serde::{
     de::{Error, MapAccess, Visitor},
 };
 
-use super::elements::{Elements, Primitives};
+use super::elements::{Elements, Reader};
 use super::materials::MaterialFile;
 use super::view::{CameraFile, LightFile, SettingsFile, SkyFile};
-use crate::scene::KINDS;
-use crate::scene::kinds::{Kind, each_kind};
+use crate::kinds::for_each_kind;
+use crate::scene::kinds::{KINDS, Kind, each_kind};
 use crate::scene::read::strict::Table;
+use crate::scene::{Description, Invalid};
 
-/// What a scene file may hold.
+/// The contents of a scene file.
 #[derive(Default)]
 pub(super) struct SceneFile {
     pub camera: Table<CameraFile>,
@@ -24,6 +25,31 @@ pub(super) struct SceneFile {
     pub materials: BTreeMap<String, Table<MaterialFile>>,
     pub primitives: Primitives,
 }
+
+/// All arrays of primitives, from the list of kinds.
+macro_rules! primitives {
+    ($($group:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
+        /// The primitives of a scene file.
+        #[derive(Default)]
+        pub(super) struct Primitives {
+            $($($field: <crate::scene::$Kind as Kind>::Elements,)*)*
+        }
+
+        impl Primitives {
+            /// Takes the value of a key, if it is one of theirs.
+            fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
+                Ok(false $($(|| self.$field.take(key, map)?)*)*)
+            }
+
+            /// Puts them into the description.
+            pub(super) fn describe(self, reader: &mut Reader<'_>, into: &mut Description) -> Result<(), Invalid> {
+                $($(into.$field = self.$field.describe(reader)?;)*)*
+                Ok(())
+            }
+        }
+    };
+}
+for_each_kind! { primitives }
 
 /// All keys, as messages list them: every kind's own, then those of its other arrays.
 static KEYS: LazyLock<Vec<&str>> = LazyLock::new(|| {

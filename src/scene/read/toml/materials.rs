@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::Vec3;
 use serde::Deserialize;
 
-use super::{Fault, Triple};
+use super::value::{Fault, Triple};
 use crate::scene::{
     Invalid, Material, Pigment,
     read::{

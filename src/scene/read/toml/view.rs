@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::Deserialize;
 
-use super::Triple;
+use super::value::Triple;
 use crate::scene::{
     CameraDescription, Dome, Invalid, Light, Settings, Sky,
     read::{image::Images, strict::Exactly},
