@@ -1,4 +1,4 @@
-//! What triangles and quads share: a plane by its unit normal, and coordinates along two edges.
+//! What triangles, quads and discs share: a plane by its unit normal; and coordinates along two edges.
 
 use super::{Surface, frame};
 use crate::math::{Lanes, Vec3};

@@ -1,7 +1,7 @@
 //! Scenes that are hard on boxes.
 
 use glam::{Vec3, vec3};
-use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Quad, Sides, Torus};
+use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Disc, Fractal, Quad, Sides, Torus};
 
 use crate::common::{Pcg, empty, mesh, plane, sphere};
 
@@ -24,7 +24,7 @@ pub enum Kind {
     Nested,
     /// Sizes from 1e-6 to 1e6.
     Sizes,
-    /// Boxes that share their faces, and quads and triangles in these.
+    /// Boxes that share their faces, and quads, triangles and discs in these.
     Grid,
     /// Needles.
     Slivers,
@@ -116,7 +116,7 @@ fn random(scene: &mut Description, n: usize, at: Vec3, scale: f32, rng: &mut Pcg
 
 /// Adds a primitive of any kind; the same `shape` makes the same one.
 fn any(scene: &mut Description, at: Vec3, shape: Vec3, size: f32, rng: &mut Pcg) {
-    add(scene, rng.below(9), at, shape, size);
+    add(scene, rng.below(10), at, shape, size);
 }
 
 fn add(scene: &mut Description, kind: usize, at: Vec3, shape: Vec3, size: f32) {
@@ -153,9 +153,13 @@ fn add(scene: &mut Description, kind: usize, at: Vec3, shape: Vec3, size: f32) {
             minor_radius: size * 0.7 * share.z,
             material,
         }),
-        _ => {
+        8 => {
             let iterations = (shape.z * 2.0 + 2.0) as u32;
             scene.fractals.push(Fractal { center: at, radius: size, iterations, material });
+        }
+        _ => {
+            let inner_radius = if shape.y > 0.0 { 0.0 } else { size * share.y.min(0.99) };
+            scene.discs.push(Disc { center: at, normal: axis, radius: size, inner_radius, material });
         }
     }
 }
@@ -164,7 +168,7 @@ fn equal(scene: &mut Description, rng: &mut Pcg) {
     for _ in 0..3 {
         let (apart, shape) = (rng.pick(&[0.0, 1.0, 1.0]), rng.cube());
         let at = rng.cube() * apart;
-        for kind in 0..9 {
+        for kind in 0..10 {
             if rng.chance(0.6) {
                 (0..100).for_each(|_| add(scene, kind, at, shape, 0.4));
             }
@@ -184,8 +188,13 @@ fn flat(scene: &mut Description, rng: &mut Pcg) {
     for i in 0..150 {
         let at = put(rng.cube(), height);
         let (u, v) = (put(rng.cube(), 0.0) * 0.3, put(rng.cube(), 0.0) * 0.3);
-        match i % 3 {
+        match i % 4 {
             0 if u.cross(v).length() > 1e-4 => scene.quads.push(Quad { corner: at, u, v, material: 0 }),
+            3 => {
+                let (normal, radius) = (Vec3::AXES[axis], u.length().max(0.01));
+                let inner_radius = radius * rng.pick(&[0.0, 0.5]);
+                scene.discs.push(Disc { center: at, normal, radius, inner_radius, material: 0 });
+            }
             1 if i % 5 == 0 => scene.spheres.push(sphere(at, 0.1)),
             _ => scene.meshes.push(mesh(&[[at, put(at + u, height), put(at + v, height)]])),
         }
@@ -206,6 +215,11 @@ fn grid(scene: &mut Description, rng: &mut Pcg) {
         scene.quads.push(Quad { corner: min, u, v, material: 0 });
         let (u, v) = rng.pick(&[(x, y), (y, z), (z, x)]);
         scene.meshes.push(mesh(&[[min, min + u, min + u + v], [min, min + u + v, min + v]]));
+        if rng.chance(0.3) {
+            // It touches the four edges.
+            let (center, radius, inner_radius) = (min + (u + v) * 0.5, edge * 0.5, edge * rng.pick(&[0.0, 0.25]));
+            scene.discs.push(Disc { center, normal: u.cross(v), radius, inner_radius, material: 0 });
+        }
         if rng.chance(0.2) {
             // It touches the six neighbours.
             scene.spheres.push(sphere(min, edge * 0.5));
