@@ -24,6 +24,7 @@ macro_rules! for_each_kind {
                 (cones: Cones, cones: Cone, cone)
                 (tori: Tori, tori: Torus, torus)
                 (fractals: Fractals, fractals: Fractal, fractal)
+                (discs: Discs, discs: Disc, disc)
             }
         }
     };

@@ -71,8 +71,8 @@ fn check(all: impl Iterator<Item = &'static Generator>) {
 
 #[test]
 fn flat_and_spherical() {
-    use Subject::{Cuboid, Plane, Quad, Shadow, Sphere, Triangle};
-    check(ALL.iter().filter(|g| matches!(g.subject, Plane | Sphere | Triangle | Quad | Cuboid | Shadow)));
+    use Subject::{Cuboid, Disc, Plane, Quad, Shadow, Sphere, Triangle};
+    check(ALL.iter().filter(|g| matches!(g.subject, Plane | Sphere | Triangle | Quad | Disc | Cuboid | Shadow)));
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn the_subject_is_alone() {
     let kinds = |d: &Description| {
         let triangles = d.meshes.iter().map(|m| m.triangles.len()).sum();
         let flat = [d.planes.len(), d.spheres.len(), triangles, d.quads.len(), d.cuboids.len()];
-        let round = [d.cylinders.len(), d.cones.len(), d.tori.len(), d.fractals.len()];
+        let round = [d.cylinders.len(), d.cones.len(), d.tori.len(), d.fractals.len(), d.discs.len()];
         [&flat[..], &round[..]].concat()
     };
     for generator in ALL {
@@ -108,8 +108,9 @@ fn the_subject_is_alone() {
             Subject::Cone => 6,
             Subject::Torus => 7,
             Subject::Fractal => 8,
+            Subject::Disc => 9,
             Subject::All => {
-                assert_eq!(count, 9);
+                assert_eq!(count, 10);
                 continue;
             }
             Subject::Refraction | Subject::Shadow => {

@@ -108,6 +108,10 @@ fn every_kind_of_primitive_is_read() {
         center = [0, 0, 7]
         radius = 1
         iterations = 3
+        [[disc]]
+        center = [0, 0, 9]
+        normal = [0, 3, 0]
+        radius = 2
     "#;
     let d = parse(text).unwrap();
     assert_eq!(d.sky, Sky::Gradient { below: Vec3::new(1.0, 2.0, 3.0), above: Vec3::new(4.0, 5.0, 6.0) });
@@ -122,7 +126,41 @@ fn every_kind_of_primitive_is_read() {
     assert_eq!((d.cones[0].base_radius, d.cones[0].apex_radius, d.cones[0].caps), (2.0, 0.0, true));
     assert_eq!((d.tori[0].axis, d.tori[0].major_radius, d.tori[0].minor_radius), (Vec3::Y * 2.0, 2.0, 0.5));
     assert_eq!((d.fractals[0].center, d.fractals[0].radius, d.fractals[0].iterations), (Vec3::Z * 7.0, 1.0, 3));
-    assert_eq!((d.primitives(), d.materials.len()), (7, 2));
+    assert_eq!((d.discs[0].center, d.discs[0].normal), (Vec3::Z * 9.0, Vec3::Y * 3.0));
+    assert_eq!((d.discs[0].radius, d.discs[0].inner_radius), (2.0, 0.0));
+    assert_eq!((d.primitives(), d.materials.len()), (8, 2));
+}
+
+#[test]
+fn discs_are_read_and_checked() {
+    let disc = |rest: &str| format!("[[disc]]\ncenter = [1, 2, 3]\nnormal = [0, 0, -2]\n{rest}");
+    let d = parse(&disc("radius = 2\ninner_radius = 0.5")).unwrap().discs[0];
+    assert_eq!((d.center, d.normal, d.radius, d.inner_radius), (Vec3::new(1.0, 2.0, 3.0), Vec3::Z * -2.0, 2.0, 0.5));
+    for (radius, problem) in [
+        ("0", "must be above 0, got 0"),
+        ("-1", "must be above 0, got -1"),
+        ("nan", "must be above 0, got NaN"),
+        ("inf", "must be finite, got inf"),
+        ("1e13", "must be 1e-12 to 1e12, got 1e13"),
+    ] {
+        fault(&disc(&format!("radius = {radius}")), &format!("s.toml:4: disc[0].radius: {problem}"));
+    }
+    for inner in ["2", "3.5", "-0.5", "NaN"] {
+        let line = format!("radius = 2\ninner_radius = {}", inner.to_lowercase());
+        let problem = format!("s.toml:5: disc[0].inner_radius: must be 0 or more and below radius, got {inner}");
+        fault(&disc(&line), &problem);
+    }
+    fault("[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 0]\nradius = 1", "s.toml:3: disc[0].normal: must not be zero");
+    fault(
+        "[[disc]]\ncenter = [0, 2e12, 0]\nnormal = [0, 1, 0]\nradius = 1",
+        "s.toml:2: disc[0].center: must be finite and within ±1e12, got [0, 2000000000000, 0]",
+    );
+    fault(
+        &disc("radius = 1\nhole = 1"),
+        "s.toml:5: disc[0].hole: unknown key, expected one of `center`, `normal`, \
+         `radius`, `inner_radius`, `material`",
+    );
+    fault("[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]", "s.toml:1: disc[0].radius: missing");
 }
 
 #[test]
@@ -243,7 +281,7 @@ fn too_many_tables() {
 fn unknown_keys() {
     fault(
         "colour = 3",
-        "s.toml:1: colour: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `mesh`",
+        "s.toml:1: colour: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `disc`, `mesh`",
     );
     fault(
         "[camera]\nfov = 3\nzoom = 2",
@@ -254,8 +292,8 @@ fn unknown_keys() {
         "s.toml:7: sphere[1].rad: unknown key, expected one of `center`, `radius`, `material`",
     );
     fault(
-        "[[disc]]\nvertices = []",
-        "s.toml:1: disc: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `mesh`",
+        "[[blob]]\nvertices = []",
+        "s.toml:1: blob: unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `disc`, `mesh`",
     );
     fault(
         "[materials.floor]\ndensity = 1",
@@ -267,7 +305,7 @@ fn unknown_keys() {
     );
     fault(
         "\"a\\nb\" = 1",
-        "s.toml:1: \"a\\nb\": unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `mesh`",
+        "s.toml:1: \"a\\nb\": unknown key, expected one of `camera`, `settings`, `sky`, `light`, `materials`, `plane`, `sphere`, `triangle`, `quad`, `box`, `cylinder`, `cone`, `torus`, `fractal`, `disc`, `mesh`",
     );
     fault(
         "[sky]\nstars = 5",

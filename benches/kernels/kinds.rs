@@ -1,7 +1,9 @@
 //! What is measured: the kinds of primitives, and scenes of one kind each.
 
 use glam::{Vec3, vec3};
-use raypacket::geometry::{Cones, Cuboids, Cylinders, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles};
+use raypacket::geometry::{
+    Cones, Cuboids, Cylinders, Discs, Fractals, Planes, Primitives, Quads, Spheres, Tori, Triangles,
+};
 use raypacket::scene::{self, Description, Scene, Sides};
 
 use crate::scenes::{self, Pcg, empty, mesh};
@@ -112,6 +114,13 @@ kind!(Torus, "torus", tori: Tori, 2.0 * 5.5, |scene, rng| {
 kind!(Fractal, "fractal", fractals: Fractals, 5.0, |scene, rng| {
     let (center, radius) = (ahead(rng), rng.range(0.3, 0.8));
     scene.fractals.push(scene::Fractal { center, radius, iterations: 3, material: 0 });
+});
+
+// 8 ε (|o − center| + radius), below 8 ε · (t + 2 · 0.9), and 2 ε t for the direction's length. Half of them rings.
+kind!(Disc, "disc", discs: Discs, 10.0, |scene, rng| {
+    let (center, normal, radius) = (ahead(rng), Vec3::Z + 0.3 * rng.cube(), rng.range(0.6, 0.9));
+    let inner_radius = rng.pick(&[0.0, 0.2]);
+    scene.discs.push(scene::Disc { center, normal, radius, inner_radius, material: 0 });
 });
 
 fn cuboid(scene: &mut Description, rotation: Vec3, rng: &mut Pcg) {

@@ -153,4 +153,5 @@ pub fn all(criterion: &mut Criterion) {
     method::<Standard<kinds::CappedCone>>(criterion);
     method::<Standard<kinds::Torus>>(criterion);
     method::<Standard<kinds::Fractal>>(criterion);
+    method::<Standard<kinds::Disc>>(criterion);
 }

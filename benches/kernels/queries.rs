@@ -80,4 +80,5 @@ pub fn all(criterion: &mut Criterion) {
     kind::<kinds::CappedCone>(criterion);
     kind::<kinds::Torus>(criterion);
     kind::<kinds::Fractal>(criterion);
+    kind::<kinds::Disc>(criterion);
 }

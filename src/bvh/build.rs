@@ -16,7 +16,7 @@ const SMALLEST: usize = 2;
 /// costs rays 1 to 2 % (on a height field of a million triangles), but it saves a tenth of the building and three
 /// tenths of the memory.
 const SMALLEST_OF_MANY: usize = 4;
-/// What costs more visits of a node than that is split down to single primitives: rings gain 4 %.
+/// Primitives that cost more visits of a node than this are split down to single ones: rings gain 4 %.
 const DEAR: f64 = 3.0;
 /// From here on memory and building matter more than the last per cent.
 const MANY: usize = 1 << 16;

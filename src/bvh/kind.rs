@@ -29,7 +29,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// What it costs a ray to visit a block: itself, and each primitive. Of a node, [`NODE_COST`].
+            /// The cost of a visit: of a block itself, and of each of its primitives.
             fn costs(self) -> [f64; 2] {
                 match self {
                     $(Self::$Storage => <crate::geometry::$Storage as Bounded>::COST,)*
@@ -67,7 +67,7 @@ impl Class {
         Self((kind as u16) << 5 | u16::from(code & 31))
     }
 
-    /// What it costs a ray to visit a block of so many.
+    /// The cost of a block of so many for a ray that visits it.
     pub fn cost(self, len: usize) -> f64 {
         self.kind().cost(len)
     }

@@ -1,4 +1,4 @@
-//! The geometry that triangles and quads share: a plane by its unit normal, and coordinates along two edges.
+//! The geometry that triangles, quads and discs share: a plane by its unit normal, and coordinates along two edges.
 
 use super::{Surface, frame};
 use crate::math::{Lanes, Vec3};

@@ -11,6 +11,7 @@ mod columns;
 pub mod cone;
 pub mod cuboid;
 pub mod cylinder;
+pub mod disc;
 pub(crate) mod face;
 mod flat;
 pub mod fractal;
@@ -29,6 +30,7 @@ pub use balls::Balls;
 pub use cone::Cones;
 pub use cuboid::Cuboids;
 pub use cylinder::Cylinders;
+pub use disc::Discs;
 pub use fractal::Fractals;
 pub use frame::frame;
 pub use plane::Planes;
@@ -203,7 +205,7 @@ pub trait Bounded: Primitives {
     /// Whether hits count only within the box around the primitive, widened by 32 ε of its farthest corner's distance:
     /// for tests that say little about their rounding. (Triangles see to that themselves.)
     const BOXED: bool;
-    /// What it costs a ray to visit a block of eight in a tree, in visits of a node: for the block, and for each of its
+    /// The cost of a block in a tree for a ray that visits it, in visits of a node: of the block, and of each of its
     /// primitives (measured).
     const COST: [f64; 2];
     /// The least and the greatest corner of a box around a primitive.

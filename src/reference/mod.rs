@@ -20,6 +20,7 @@ mod camera;
 mod cone;
 mod cuboid;
 mod cylinder;
+mod disc;
 mod fractal;
 mod image;
 mod plane;

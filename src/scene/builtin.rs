@@ -27,9 +27,12 @@ static BUILTINS: [Builtin; 10] = [
     builtin!("flake", "a sphereflake: 7,381 partly mirrored spheres on a floor"),
     builtin!("hall", "spheres between two facing mirrors, twelve reflections deep"),
     builtin!("cosmos", "radii and distances from 1e-3 to 1e6: pebbles, planets and moons"),
-    builtin!("primitives", "every primitive: plane, sphere, triangle, quad, box, cylinder, cone, torus, fractal"),
+    builtin!(
+        "primitives",
+        "every primitive but the disc: plane, sphere, triangle, quad, box, cylinder, cone, torus, fractal"
+    ),
     builtin!("glass", "refraction and absorption: clear and coloured bodies, a vial of water, bubbles"),
-    builtin!("textures", "images and checkerboards on every primitive"),
+    builtin!("textures", "images and checkerboards on every primitive but the disc"),
     builtin!("sky", "a panorama all around, seen directly, in mirrors and through glass"),
     builtin!("sponge", "a Menger sponge of four iterations"),
     builtin!("lattice", "a diamond crystal of 265 spheres and 460 cylinders over a mirror"),

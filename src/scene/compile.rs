@@ -43,7 +43,7 @@ macro_rules! scene {
     ($($group:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
         /// A compiled scene: SoA arrays, ready to trace.
         ///
-        /// Primitive ids run through the kinds in the order of the fields, from planes to fractals.
+        /// Primitive ids run through the kinds in the order of the fields, from planes to discs.
         #[derive(Clone, Debug)]
         pub struct Scene {
             $($(

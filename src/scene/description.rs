@@ -16,7 +16,7 @@ macro_rules! description {
     ($($group:ident { $(($storage:ident: $Storage:ident, $field:ident: $Kind:ident, $module:ident))* })*) => {
         /// A whole scene. Made by a reader, a built-in, or by hand; [`crate::scene::check`] says whether it is sound.
         ///
-        /// Primitive ids count through the kinds in the order of the fields, from planes to fractals; those of the
+        /// Primitive ids count through the kinds in the order of the fields, from planes to discs; those of the
         /// meshes through the triangles of all meshes.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct Description {
@@ -208,7 +208,7 @@ pub enum Pigment {
     /// A checkerboard: an even sum of the floors of the hit point's coordinates, divided by `size`, takes the first
     /// colour.
     ///
-    /// The coordinates are two on what is flat (plane, triangle, quad, the face of a box or fractal, a cap) and
+    /// The coordinates are two on what is flat (plane, triangle, quad, disc, the face of a box or fractal, a cap) and
     /// three in what is curved. Each primitive's type says which.
     Checker {
         /// The two colours.

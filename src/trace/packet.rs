@@ -1,10 +1,10 @@
 //! A packet of rays, and the box that a hit has to lie in.
 //!
 //! Hits of kinds whose tests say little about their rounding count only within the primitive's box
-//! ([`Bounded::BOXED`]). Next to a quad's edge a grazing ray may be off by any number of ε, and so may the distance; a
-//! torus, cone or fractal errs by bounds of its own. A box around the primitive, wider by 32 ε of its farthest corner's
-//! distance on all sides, holds all true hits; where a ray misses it there is none, and a distance is kept within it. It
-//! also spares most of these tests, which cost more than it. A tree of such boxes then loses no hit.
+//! ([`Bounded::BOXED`]). Next to a quad's or disc's edge a grazing ray may be off by any number of ε, and so may the
+//! distance; a torus, cone or fractal errs by bounds of its own. A box around the primitive, wider by 32 ε of its
+//! farthest corner's distance on all sides, holds all true hits; where a ray misses it there is none, and a distance is
+//! kept within it. It also spares most of these tests, which cost more than it. A tree of such boxes then loses no hit.
 
 use crate::geometry::face::{Aim, PAD, between};
 use crate::geometry::{Bounded, LaneHits, Test};

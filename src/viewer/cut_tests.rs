@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{Cone, Cuboid, Cylinder, Fractal, Mesh, Plane, Quad, Sides, Sphere, Torus};
+use crate::scene::{Cone, Cuboid, Cylinder, Disc, Fractal, Mesh, Plane, Quad, Sides, Sphere, Torus};
 use glam::{DVec2, DVec3, Vec3, Vec3Swizzles};
 use std::f64::consts::TAU;
 
@@ -70,6 +70,10 @@ fn of_torus(center: Vec3, axis: Vec3, major_radius: f32, minor_radius: f32) -> D
 
 fn of_fractal(center: Vec3, radius: f32, iterations: u32) -> Description {
     Description { fractals: vec![Fractal { center, radius, iterations, material: 0 }], ..Description::default() }
+}
+
+fn of_disc(center: Vec3, normal: Vec3, radius: f32, inner_radius: f32) -> Description {
+    Description { discs: vec![Disc { center, normal, radius, inner_radius, material: 0 }], ..Description::default() }
 }
 
 /// The distance to the side of a body of revolution, negative inside, and the least distance within its ends.
@@ -405,6 +409,7 @@ fn what_is_not_seen_is_not_drawn() {
         of_cone(-Vec3::ONE, 1.0, Vec3::ONE, 0.0, true),
         of_torus(Vec3::ZERO, Vec3::ONE, 2.0, 1.0),
         of_fractal(Vec3::ZERO, 1.0, 8),
+        of_disc(Vec3::ZERO, Vec3::ONE, 2.0, 1.0),
     ] {
         assert!(!all(&description, &SEEN).is_empty());
         for section in [near, Section { y: 9.0, ..SEEN }] {
@@ -431,7 +436,8 @@ fn extremes_are_numbers() {
                 let cuboid = of_cuboid(Cuboid { min: p, max: q, rotation: Vec3::splat(c), material: 0 });
                 let quads = vec![Quad { corner: p, u: q, v: q.zxy(), material: 0 }];
                 let [open, cone] = sides;
-                let rest = [of_torus(p, q, a.abs(), b.abs()), of_fractal(p, c.abs(), 8)];
+                let disc = of_disc(p, q, a.abs(), b.abs());
+                let rest = [of_torus(p, q, a.abs(), b.abs()), of_fractal(p, c.abs(), 8), disc];
                 for description in
                     rest.into_iter().chain([open, cone, cuboid, Description { quads, ..Description::default() }])
                 {

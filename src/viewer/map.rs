@@ -109,7 +109,7 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{CameraDescription, Cone, Cuboid, Cylinder, Fractal, Quad, Sides, Sphere, Torus};
+    use crate::scene::{CameraDescription, Cone, Cuboid, Cylinder, Disc, Fractal, Quad, Sides, Sphere, Torus};
 
     fn scene(spheres: &[(Vec3, f32)]) -> Description {
         let spheres = spheres
@@ -146,6 +146,7 @@ mod tests {
             cones: vec![Cone { base, base_radius: 0.0, apex, apex_radius: 5.0, caps, sides, material }],
             tori: vec![Torus { center: base, axis: Vec3::X * 3.0, major_radius: 2.0, minor_radius: 0.5, material }],
             fractals: vec![Fractal { center: apex, radius: 2.0, iterations: 3, material }],
+            discs: vec![Disc { center: base, normal: apex - base, radius: 5.0, inner_radius: 1.0, material }],
             ..Description::default()
         };
         // The axis of length 5 rises by 3: its discs of radius 5 spread by 3 along x.
@@ -156,6 +157,7 @@ mod tests {
             [1.0, -5.0, 8.0, 5.0],
             [0.5, -2.5, 1.5, 2.5],
             [3.0, -2.0, 7.0, 2.0],
+            [-2.0, -5.0, 4.0, 5.0],
         ];
         let found: Vec<[f64; 4]> = bodies(&d).map(|Extent { low, high }| [low.x, low.y, high.x, high.y]).collect();
         assert_eq!(found.len(), expected.len());

@@ -16,7 +16,8 @@ use crate::common::ROUNDOFF;
 /// - quad, 8 ε (|o − corner| + longest edge) / sin: an edge is at most 2 D;
 /// - box, 3 ε t; turned, 5 ε |o − centre| + 7 ε t + 2 ε |furthest corner|: the last is at most √3 |o| + D;
 /// - cylinder, 8 ε (|o − base| + length + radius) + 6 ε t: length + radius is at most √5 times the ball's radius; cone,
-///   likewise 12 and 8.
+///   likewise 12 and 8;
+/// - disc, 10 ε (|o − center| + radius) + 3 ε t, where D = |o − center| + radius.
 pub fn k(shape: &Shape) -> f64 {
     let (map3, five) = (3f64.sqrt(), 5f64.sqrt());
     match shape {
@@ -29,6 +30,7 @@ pub fn k(shape: &Shape) -> f64 {
         Shape::Cylinder(_) => 8.0 * (1.0 + five) + 6.0,
         Shape::Cone(_) => 12.0 * (1.0 + five) + 8.0,
         Shape::Torus(_) => 12.0,
+        Shape::Disc(_) => 13.0,
     }
 }
 
@@ -55,6 +57,7 @@ pub fn ball(shape: &Shape) -> Option<(DVec3, f64)> {
         Shape::Cone(it) => around(&[it.base, it.apex].map(|p| p.as_dvec3()), it.base_radius.max(it.apex_radius)),
         Shape::Torus(it) => (it.center.as_dvec3(), f64::from(it.major_radius) + f64::from(it.minor_radius)),
         Shape::Fractal(it) => (it.center.as_dvec3(), f64::from(it.radius) * 3f64.sqrt()),
+        Shape::Disc(it) => (it.center.as_dvec3(), it.radius.into()),
     })
 }
 
@@ -89,6 +92,7 @@ pub fn size(shape: &Shape) -> f64 {
         }
         Shape::Torus(it) => it.minor_radius.into(),
         Shape::Fractal(it) => it.radius.into(),
+        Shape::Disc(it) => f64::from(it.radius) - f64::from(it.inner_radius),
     }
 }
 
@@ -156,6 +160,7 @@ pub fn error_of_t(shape: &Shape, ray: &Ray, truth: &Truth) -> f64 {
         }
         Shape::Torus(it) => 12.0 * (f64::from(it.major_radius) + f64::from(it.minor_radius)) + 4.0 * from(it.center),
         Shape::Fractal(it) => 4.0 * from(it.center) + 5.0 * f64::from(it.radius),
+        Shape::Disc(it) => 8.0 * (from(it.center) + f64::from(it.radius)),
     };
     ROUNDOFF * off / cosine
 }

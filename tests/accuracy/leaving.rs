@@ -103,7 +103,7 @@ fn spawn(scene: &Scene, shape: &Shape, eyes: &[Ray], rng: &mut Pcg) -> Vec<Spawn
 }
 
 fn is_flat(shape: &Shape) -> bool {
-    matches!(shape, Shape::Plane(_) | Shape::Triangle(_) | Shape::Quad(_))
+    matches!(shape, Shape::Plane(_) | Shape::Triangle(_) | Shape::Quad(_) | Shape::Disc(_))
 }
 
 /// Whether a hit at `t` of a ray that left outward is one of what it left.
@@ -182,7 +182,7 @@ fn check(rays: usize) {
     println!("| kind | rays that leave | meet what they left | rays to the other side | leak |");
     println!("|---|---|---|---|---|");
     let mut wrong = 0;
-    for kind in ["plane", "sphere", "triangle", "quad", "box", "cylinder", "cone", "torus", "fractal"] {
+    for kind in ["plane", "sphere", "triangle", "quad", "box", "cylinder", "cone", "torus", "fractal", "disc"] {
         let poses = (rays.div_ceil(POSE) as u64).next_multiple_of(SIZES as u64);
         let of = |seed: u64| count(kind, 10f64.powi((seed % SIZES as u64) as i32 - SIZES / 2), seed);
         let all = (0..poses).into_par_iter().map(of).reduce(Count::default, Count::plus);

@@ -60,6 +60,7 @@ fn surface(scene: &Scene, shape: &Shape, id: usize, point: Vec3) -> Surface<f32>
         Shape::Cone(_) => scene.cones.surface(of(first.cones), point),
         Shape::Torus(_) => scene.tori.surface(of(first.tori), point),
         Shape::Fractal(_) => scene.fractals.surface(of(first.fractals), point),
+        Shape::Disc(_) => scene.discs.surface(of(first.discs), point),
     }
 }
 

@@ -29,11 +29,13 @@ struct Row {
     share: f64,
     degrees: f64,
     /// By kind of primitive, under the condition.
-    worst: [f64; 9],
+    worst: [f64; 10],
 }
 
-const SUBJECTS: [&str; 12] =
-    ["plane", "sphere", "triangle", "quad", "box", "cylinder", "cone", "torus", "fractal", "scene", "glass", "shadow"];
+const SUBJECTS: [&str; 13] = [
+    "plane", "sphere", "triangle", "quad", "box", "cylinder", "cone", "torus", "fractal", "disc", "scene", "glass",
+    "shadow",
+];
 
 fn kind(shape: &Shape) -> usize {
     match shape {
@@ -46,6 +48,7 @@ fn kind(shape: &Shape) -> usize {
         Shape::Cone(_) => 6,
         Shape::Torus(_) => 7,
         Shape::Fractal(_) => 8,
+        Shape::Disc(_) => 9,
     }
 }
 

@@ -66,6 +66,7 @@ fn nearest(scene: &Scene, ray: &Ray) -> (f32, u32) {
     best.among(&scene.cones, scene.first.cones, boxes(scene.first.cones));
     best.among(&scene.tori, scene.first.tori, boxes(scene.first.tori));
     best.among(&scene.fractals, scene.first.fractals, boxes(scene.first.fractals));
+    best.among(&scene.discs, scene.first.discs, boxes(scene.first.discs));
     if best.id == NONE { (f32::INFINITY, NONE) } else { (best.t, best.id) }
 }
 

@@ -168,7 +168,7 @@ impl Bundle {
 }
 
 fn any_primitive(scene: &Scene, rng: &mut Pcg) -> Option<u32> {
-    let count = scene.first.fractals as usize + scene.fractals.len();
+    let count = scene.first.discs as usize + scene.discs.len();
     (count > 0).then(|| rng.below(count) as u32)
 }
 
@@ -254,6 +254,7 @@ macro_rules! with_body {
             }};
         }
         match id {
+            id if id >= first.discs => on!(discs),
             id if id >= first.fractals => on!(fractals),
             id if id >= first.tori => on!(tori),
             id if id >= first.cones => on!(cones),

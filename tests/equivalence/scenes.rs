@@ -1,7 +1,7 @@
 //! The scenes of the matrix.
 
 use glam::{Vec3, vec3};
-use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Quad, Sides, Torus};
+use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Disc, Fractal, Quad, Sides, Torus};
 
 use crate::common::{Pcg, empty, mesh, plane, sphere};
 
@@ -13,7 +13,7 @@ pub enum Kind {
     Triangles,
     Mixed,
     Empty,
-    /// Quads, boxes, cylinders, cones, tori and fractals.
+    /// Quads, boxes, cylinders, cones, tori, fractals and discs.
     Bodies,
     /// Spheres, triangles, cylinders and cones, most of them only seen from one side.
     OneSided,
@@ -86,6 +86,7 @@ pub fn scene(kind: Kind, place: Place, rng: &mut Pcg) -> Description {
         scene.cuboids.clear();
         scene.tori.clear();
         scene.fractals.clear();
+        scene.discs.clear();
         // Trees test spheres together when all have the same side.
         let common = rng.pick(&[None, Some(Sides::Front), Some(Sides::Back)]);
         let mut sides = || rng.pick(&[Sides::Both, Sides::Front, Sides::Back]);
@@ -130,6 +131,9 @@ fn bodies(scene: &mut Description, place: Place, rng: &mut Pcg) {
         scene.tori.push(Torus { center: place.point(rng), axis: along, major_radius, minor_radius, material: 0 });
         let iterations = rng.below(4) as u32;
         scene.fractals.push(Fractal { center: place.point(rng), radius: size(rng), iterations, material: 0 });
+        let (center, normal, radius) = (place.point(rng), along * rng.pick(&[1.0, -0.01, 30.0]), size(rng));
+        let inner_radius = radius * rng.pick(&[0.0, 0.3, 0.99]);
+        scene.discs.push(Disc { center, normal, radius, inner_radius, material: 0 });
     }
 }
 

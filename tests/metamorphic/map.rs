@@ -83,6 +83,10 @@ impl Map {
             (t.major_radius, t.minor_radius) = (self.length(t.major_radius), self.length(t.minor_radius));
         }
         scene.fractals.iter_mut().for_each(|f| (f.center, f.radius) = (self.point(f.center), self.length(f.radius)));
+        for d in &mut scene.discs {
+            (d.center, d.normal) = (self.point(d.center), self.direction(d.normal));
+            (d.radius, d.inner_radius) = (self.length(d.radius), self.length(d.inner_radius));
+        }
         scene
     }
 

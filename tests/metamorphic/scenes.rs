@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 use proptest::prelude::*;
-use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Quad, Sides, Torus, check};
+use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Disc, Fractal, Quad, Sides, Torus, check};
 
 use crate::common::{empty, light, mesh, plane, sphere};
 
@@ -31,9 +31,10 @@ enum Kind {
     Cone,
     Torus,
     Fractal,
+    Disc,
 }
 
-const KINDS: [Kind; 10] = [
+const KINDS: [Kind; 11] = [
     Kind::Sphere,
     Kind::Triangle,
     Kind::Quad,
@@ -43,6 +44,7 @@ const KINDS: [Kind; 10] = [
     Kind::Cone,
     Kind::Torus,
     Kind::Fractal,
+    Kind::Disc,
     Kind::Plane,
 ];
 
@@ -96,6 +98,10 @@ impl Item {
                     iterations: u32::from(self.size % 4),
                     material,
                 });
+            }
+            Kind::Disc => {
+                let inner_radius = if caps { size * 0.25 } else { 0.0 };
+                s.discs.push(Disc { center: at, normal: a, radius: size, inner_radius, material });
             }
         }
     }

@@ -130,7 +130,7 @@ impl Pair {
         }
         text += &format!("  and with nothing but the primitives that were hit: {}\n", differ(&part));
         text + &format!("  those are {:?}\n", (&part.planes, &part.spheres, &part.meshes, &part.quads, &part.cuboids))
-            + &format!("  {:?}", (&part.cylinders, &part.cones, &part.tori, &part.fractals))
+            + &format!("  {:?}", (&part.cylinders, &part.cones, &part.tori, &part.fractals, &part.discs))
     }
 }
 
@@ -169,5 +169,6 @@ fn keep(from: &Description, id: u32, to: &mut Description) {
     kind!(cones);
     kind!(tori);
     kind!(fractals);
+    kind!(discs);
     let _ = i;
 }

@@ -30,9 +30,9 @@ enum Directions {
     Boxes,
     /// Along axes and diagonals, with 0 and −0.
     Axes,
-    /// From a point in a triangle's or quad's plane, in this plane or a few ε off it.
+    /// From a point in a triangle's, quad's or disc's plane, in this plane or a few ε off it.
     Flat,
-    /// To points on the lines of the edges of triangles and quads, on them and next to their ends.
+    /// To points on the lines of the edges of triangles and quads and of discs' axes, on them and next to their ends.
     Ends,
 }
 
@@ -177,14 +177,19 @@ struct Flat {
     edges: [Vec3; 2],
 }
 
-/// Of some triangle or quad.
+/// Of some triangle or quad; a disc's edges are its axes.
 fn flat_of(pair: &Pair, rng: &mut Pcg) -> Option<Flat> {
     let scene = &pair.with;
     let (triangles, quads) = (scene.triangles.material.len(), scene.quads.material.len());
-    let i = rng.below((triangles + quads).max(1));
+    let discs = scene.discs.material.len();
+    let i = rng.below((triangles + quads + discs).max(1));
     let [corner, u, v] = match i.checked_sub(triangles) {
         None => scene.triangles.corner_and_edges(i),
         Some(i) if i < quads => scene.quads.corner_and_edges(i),
+        Some(i) if i - quads < discs => {
+            let (i, axes) = (i - quads, scene.discs.axes[i - quads]);
+            [scene.discs.center(i), axes[0] * scene.discs.radius[i], axes[1] * scene.discs.radius[i]]
+        }
         Some(_) => return None,
     };
     Some(Flat { corner, edges: [u, v] })

@@ -1,7 +1,7 @@
 //! Scenes that are hard on boxes.
 
 use glam::{Vec3, vec3};
-use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Quad, Sides, Torus};
+use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Disc, Fractal, Quad, Sides, Torus};
 
 use crate::common::{Pcg, empty, mesh, plane, sphere};
 
@@ -24,7 +24,7 @@ pub enum Kind {
     Nested,
     /// Sizes from 1e-6 to 1e6.
     Sizes,
-    /// Boxes that share their faces, and quads and triangles in these.
+    /// Boxes that share their faces, and quads, triangles and discs in these.
     Grid,
     /// Needles.
     Slivers,
@@ -120,7 +120,7 @@ fn any(scene: &mut Description, at: Vec3, shape: Vec3, size: f32, rng: &mut Pcg)
 }
 
 /// How many kinds [`add`] knows; triangles count twice.
-pub const KINDS: usize = 9;
+pub const KINDS: usize = 10;
 
 /// Adds a primitive of a kind.
 pub fn add(scene: &mut Description, kind: usize, at: Vec3, shape: Vec3, size: f32) {
@@ -157,9 +157,13 @@ pub fn add(scene: &mut Description, kind: usize, at: Vec3, shape: Vec3, size: f3
             minor_radius: size * 0.7 * share.z,
             material,
         }),
-        _ => {
+        8 => {
             let iterations = (shape.z * 2.0 + 2.0) as u32;
             scene.fractals.push(Fractal { center: at, radius: size, iterations, material });
+        }
+        _ => {
+            let inner_radius = if shape.y > 0.0 { 0.0 } else { size * share.y.min(0.99) };
+            scene.discs.push(Disc { center: at, normal: axis, radius: size, inner_radius, material });
         }
     }
 }
@@ -188,8 +192,13 @@ fn flat(scene: &mut Description, rng: &mut Pcg) {
     for i in 0..150 {
         let at = put(rng.cube(), height);
         let (u, v) = (put(rng.cube(), 0.0) * 0.3, put(rng.cube(), 0.0) * 0.3);
-        match i % 3 {
+        match i % 4 {
             0 if u.cross(v).length() > 1e-4 => scene.quads.push(Quad { corner: at, u, v, material: 0 }),
+            3 => {
+                let (normal, radius) = (Vec3::AXES[axis], u.length().max(0.01));
+                let inner_radius = radius * rng.pick(&[0.0, 0.5]);
+                scene.discs.push(Disc { center: at, normal, radius, inner_radius, material: 0 });
+            }
             1 if i % 5 == 0 => scene.spheres.push(sphere(at, 0.1)),
             _ => scene.meshes.push(mesh(&[[at, put(at + u, height), put(at + v, height)]])),
         }
@@ -210,6 +219,11 @@ fn grid(scene: &mut Description, rng: &mut Pcg) {
         scene.quads.push(Quad { corner: min, u, v, material: 0 });
         let (u, v) = rng.pick(&[(x, y), (y, z), (z, x)]);
         scene.meshes.push(mesh(&[[min, min + u, min + u + v], [min, min + u + v, min + v]]));
+        if rng.chance(0.3) {
+            // It touches the four edges.
+            let (center, radius, inner_radius) = (min + (u + v) * 0.5, edge * 0.5, edge * rng.pick(&[0.0, 0.25]));
+            scene.discs.push(Disc { center, normal: u.cross(v), radius, inner_radius, material: 0 });
+        }
         if rng.chance(0.2) {
             // It touches the six neighbours.
             scene.spheres.push(sphere(min, edge * 0.5));

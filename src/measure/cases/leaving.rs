@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::draw::{along, empty, foot_and_normal, side};
 use super::{Made, Pcg, mixed, triangle};
-use crate::scene::{Cone, Cuboid, Cylinder, Description, Plane, Quad, Sides, Torus};
+use crate::scene::{Cone, Cuboid, Cylinder, Description, Disc, Plane, Quad, Sides, Torus};
 
 /// Draws a point of a surface, and the outward unit normal there.
 type Draw = dyn Fn(&mut Pcg) -> (DVec3, DVec3);
@@ -146,4 +146,13 @@ pub fn torus(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
         (c + out * f64::from(major_radius) + n * f64::from(minor_radius), n)
     });
     leave(&Shape { description: Description { tori: vec![torus], ..empty() }, point }, rays, rng)
+}
+
+/// A disc of that radius, with a hole of 0.3 of it.
+pub fn disc(dial: f64, rays: usize, rng: &mut Pcg) -> Made {
+    let (radius, inner_radius) = (dial as f32, (0.3 * dial) as f32);
+    let disc = Disc { center: mixed::place(dial, rng), normal: rng.unit() * 3.0, radius, inner_radius, material: 0 };
+    let (c, n) = (disc.center.as_dvec3(), disc.normal.as_dvec3().normalize());
+    let point = Box::new(move |rng: &mut Pcg| (c + rng.across(n) * (rng.between(0.35, 0.95) * dial), n));
+    leave(&Shape { description: Description { discs: vec![disc], ..empty() }, point }, rays, rng)
 }

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3, dvec3};
 
 use super::draw::{empty, towards};
 use super::{Made, Pcg};
-use crate::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Mesh, Plane, Quad, Sides, Sphere, Torus};
+use crate::scene::{Cone, Cuboid, Cylinder, Description, Disc, Fractal, Mesh, Plane, Quad, Sides, Sphere, Torus};
 
 /// Up to 2 sizes from the world's origin along each axis.
 pub fn place(size: f64, rng: &mut Pcg) -> Vec3 {
@@ -60,6 +60,13 @@ impl Frame {
                 center: self.at(0.0, -0.5, -2.0),
                 radius: self.long(1.2),
                 iterations: 2,
+                material,
+            }],
+            discs: vec![Disc {
+                center: self.at(2.5, 2.5, 0.5),
+                normal: Vec3::new(0.3, 0.4, 1.0),
+                radius: self.long(1.1),
+                inner_radius: self.long(0.4),
                 material,
             }],
             ..empty()

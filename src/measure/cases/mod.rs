@@ -74,6 +74,8 @@ pub enum Subject {
     Torus,
     /// Of fractals.
     Fractal,
+    /// Of discs.
+    Disc,
     /// All of them, together.
     All,
     /// Refraction; the rays are the eye's.

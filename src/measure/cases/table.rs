@@ -68,6 +68,7 @@ pub const ALL: &[Generator] = &[
     entry("cylinder-leaving", Subject::Cylinder, leaving::cylinder, LEAVING, SIZE),
     entry("cone-leaving", Subject::Cone, leaving::cone, LEAVING, SIZE),
     entry("torus-leaving", Subject::Torus, leaving::torus, LEAVING, SIZE),
+    entry("disc-leaving", Subject::Disc, leaving::disc, LEAVING, SIZE),
     entry(
         "plane-grazing",
         Subject::Plane,

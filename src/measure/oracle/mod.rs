@@ -8,7 +8,7 @@
 //!
 //! | primitive | what t is | how it is decided |
 //! |---|---|---|
-//! | plane, triangle, quad, box | a ratio | signs and cross products of ratios |
+//! | plane, triangle, quad, disc, box | a ratio | signs and cross products of ratios |
 //! | sphere, cylinder, cone | (a ± √d) / c | the same, and squares |
 //! | torus | a root of a quartic | Sturm's theorem; double roots by the greatest common divisor |
 //! | fractal | a ratio | from plane to plane of its grid |
@@ -18,30 +18,32 @@
 //!
 //! # What counts as a hit
 //!
-//! A hit lies in the open interval (`t_min`, `t_max`). Surfaces are closed sets: edges, corners, rims and tips belong to
-//! them, and a ray that only touches hits. A sphere's, cylinder's or cone's touching ray hits whichever side is there. A
-//! ray within a plane, triangle, quad or the side of a cylinder or cone hits nothing of it. Boxes and fractals are solid:
-//! a ray meets them where it enters or leaves the closed body, also when it glides in a face; a cylinder's or cone's caps
-//! are closed discs.
+//! A hit lies in the open interval (`t_min`, `t_max`). Surfaces are closed sets: edges, corners, rims and tips belong
+//! to them, and a ray that only touches hits. A sphere's, cylinder's or cone's touching ray hits whichever side is
+//! there. A ray within a plane, triangle, quad, disc or the side of a cylinder or cone hits nothing of it. Boxes and
+//! fractals are solid: a ray meets them where it enters or leaves the closed body, also when it glides in a face; a
+//! cylinder's or cone's caps are closed discs.
 //!
 //! A ray or primitive with NaN or infinity (but for an infinite `t_max`, or `t_min` = −∞) and a direction of length 0 miss.
 //!
 //! # What t is
 //!
 //! The parameter along the direction as it is given: a hit is at origin + t · direction, exactly. A method that only
-//! solves for t, as those of plane, triangle, quad, box, cylinder, cone and fractal do, answers that question whatever
-//! the direction's length. A method that counts on |direction| = 1 and leaves it out of its formulae
-//! ([`crate::geometry::sphere`], [`crate::geometry::torus`]) answers neither this question nor the one for the normalised
-//! direction: with a length of 1 + δ its t is off by some δ t, and by δ t² / (r cos θ) where a term like t² takes part in
-//! a cancellation, as in the textbook's quadratic for a sphere of radius r at incidence θ. δ is up to 4 ε for the rays
-//! this program makes and up to 84 ε for ray files (ε = 2⁻²⁴). So that all methods are judged by one question, t is along
-//! the direction as given unless asked otherwise; where δ matters, judge them on rays with small δ, or ask for world units
-//! by [`Ray::normalized`]. The hits are at the same places; t and the interval then count in units that differ by δ.
+//! solves for t, as those of plane, triangle, quad, disc, box, cylinder, cone and fractal do, answers that question
+//! whatever the direction's length. A method that counts on |direction| = 1 and leaves it out of its formulae
+//! ([`crate::geometry::sphere`], [`crate::geometry::torus`]) answers neither this question nor the one for the
+//! normalised direction: with a length of 1 + δ its t is off by some δ t, and by δ t² / (r cos θ) where a term like t²
+//! takes part in a cancellation, as in the textbook's quadratic for a sphere of radius r at incidence θ. δ is up to 4 ε
+//! for the rays this program makes and up to 84 ε for ray files (ε = 2⁻²⁴). So that all methods are judged by one
+//! question, t is along the direction as given unless asked otherwise; where δ matters, judge them on rays with small
+//! δ, or ask for world units by [`Ray::normalized`]. The hits are at the same places; t and the interval then count in
+//! units that differ by δ.
 
 mod body;
 mod cone;
 mod cuboid;
 mod cylinder;
+mod disc;
 mod exact;
 mod fractal;
 mod frustum;

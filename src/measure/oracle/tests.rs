@@ -3,7 +3,7 @@
 //! by Cramer's rule and sponges by all their cubes; [`closed`] cases known by hand; [`nearby`] what is settled;
 //! [`against`] everything by the `f64` reference.
 use super::*;
-use crate::scene::{Cone, Cuboid, Cylinder, Fractal, Plane, Quad, Sides, Sphere, Torus};
+use crate::scene::{Cone, Cuboid, Cylinder, Disc, Fractal, Plane, Quad, Sides, Sphere, Torus};
 use glam::vec3;
 
 mod against;
@@ -67,15 +67,19 @@ impl Random {
                 let (major_radius, minor_radius) = (size, size * (0.5 + 0.4 * self.next()));
                 Shape::Torus(Torus { center: a * 0.3, axis: b, major_radius, minor_radius, material })
             }
-            _ => {
+            9 => {
                 let iterations = self.below(5);
                 Shape::Fractal(Fractal { center: a * 0.3, radius: size, iterations, material })
+            }
+            _ => {
+                let inner_radius = [0.0, size * 0.3][self.below(2) as usize];
+                Shape::Disc(Disc { center: a * 0.3, normal: b, radius: size, inner_radius, material })
             }
         }
     }
 }
 
-const KINDS: usize = 10;
+const KINDS: usize = 11;
 
 fn sphere(center: Vec3, radius: f32) -> Shape {
     Shape::Sphere(Sphere { center, radius, sides: Sides::Both, material: 0 })

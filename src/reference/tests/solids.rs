@@ -1,7 +1,7 @@
-//! Boxes and Menger sponges.
+//! Boxes, Menger sponges and discs.
 use super::*;
-use crate::reference::{cuboid, fractal};
-use crate::scene::{Cuboid, Fractal};
+use crate::reference::{cuboid, disc, fractal};
+use crate::scene::{Cuboid, Disc, Fractal};
 use glam::DVec2;
 
 fn cuboid(rotation: Vec3) -> cuboid::Cuboid {
@@ -87,4 +87,52 @@ fn sponge_is_as_dense_as_its_twenty_cubes() {
         assert!(!inside, "{i}");
     }
     assert!((solid / 243.0 - 400.0 / 729.0).abs() < 1e-8, "{solid}");
+}
+
+fn disc(inner_radius: f32) -> disc::Disc {
+    disc::Disc::new(&Disc {
+        center: vec3(1.0, 2.0, 3.0),
+        normal: Vec3::Y * 4.0,
+        radius: 2.5,
+        inner_radius,
+        material: 0,
+    })
+}
+
+#[test]
+fn disc_from_both_sides_hole_edges_and_in_its_plane() {
+    for (x, z, whole, ring) in [
+        (0.0, 0.0, true, false),
+        (1.0, 0.0, true, false),
+        (0.9, 1.2, true, true),
+        (-1.75, 0.0, true, true),
+        (-1.5, -2.0, true, true),
+        (2.5, 0.0, true, true),
+        (0.0, 2.6, false, false),
+    ] {
+        for (side, inner, hit) in [(1.0, 0.0, whole), (-1.0, 0.0, whole), (1.0, 1.25, ring), (-1.0, 1.25, ring)] {
+            let it = disc(inner);
+            let origin = dvec3(1.0 + x, 2.0 + 3.0 * side, 3.0 + z);
+            assert_eq!(it.distance(origin, -DVec3::Y * side), hit.then_some(3.0), "{x} {z} {inner}");
+            assert_eq!(it.distance(origin, DVec3::Y * side), None, "behind");
+        }
+    }
+    let it = disc(0.0);
+    assert_eq!(it.distance(dvec3(-9.0, 2.0, 3.0), DVec3::X), None, "in its plane");
+    assert_eq!(it.distance(dvec3(1.5, 2.0, 3.0), DVec3::Y), None, "on it, leaving");
+    assert_eq!(it.project(dvec3(1.5, 2.5, 3.0)), dvec3(1.5, 2.0, 3.0));
+}
+
+#[test]
+fn disc_texture_and_checker() {
+    // About y, T = x and B = z.
+    let it = disc(0.5);
+    for (q, uv, checker) in [
+        (dvec3(0.0, 0.0, 1.5), [0.5, 0.5], dvec3(0.0, 1.5, 0.0)),
+        (dvec3(2.5, 0.0, 0.0), [0.75, 1.0], dvec3(2.5, 0.0, 0.0)),
+        (dvec3(-0.5, 0.0, 0.0), [0.25, 0.0], dvec3(-0.5, 0.0, 0.0)),
+    ] {
+        let point = dvec3(1.0, 2.0, 3.0) + q;
+        assert_eq!((it.uv(point), it.checker(point)), (DVec2::from(uv), checker), "{q}");
+    }
 }

@@ -6,6 +6,7 @@
 mod cone;
 mod cuboid;
 mod cylinder;
+mod disc;
 mod fractal;
 mod plane;
 mod quad;

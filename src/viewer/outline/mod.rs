@@ -7,6 +7,7 @@
 mod cone;
 mod cuboid;
 mod cylinder;
+mod disc;
 mod extent;
 mod fractal;
 mod plane;

@@ -1,4 +1,4 @@
-//! The geometry that bodies of revolution share in the slice: cylinders, cones, tori.
+//! The geometry that bodies of revolution share in the slice: cylinders, cones, discs, tori.
 //!
 //! The vertical plane through a body's axis is a plane of symmetry, and meets the slice in a line. t runs along it, and
 //! w is the distance from it in the slice. In that vertical plane, a point of the line is at s along the axis
@@ -54,7 +54,7 @@ impl Tilt {
     }
 
     /// In (x, z).
-    fn point(&self, t: f64, w: f64) -> DVec2 {
+    pub fn point(&self, t: f64, w: f64) -> DVec2 {
         self.origin + self.along * t + self.along.perp() * w
     }
 
@@ -65,7 +65,7 @@ impl Tilt {
     }
 
     /// w for a body's radius at t.
-    fn aside(&self, t: f64, radius: f64) -> f64 {
+    pub fn aside(&self, t: f64, radius: f64) -> f64 {
         let across = self.across(t).abs();
         // At the ends of an interval rounding may leave less than 0.
         ((radius - across) * (radius + across)).max(0.0).sqrt()

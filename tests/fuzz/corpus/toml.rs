@@ -62,14 +62,16 @@ cylinder = [{ base = [0, 0, 0], apex = [0, 1, 0], radius = 0.25, caps = true }]
 cone = [{ base = [1, 0, 1], base_radius = 0.5, apex = [1, 1, 1], apex_radius = 0, caps = true }]
 torus = [{ center = [0, 1, 1], axis = [0, 1, 1], major_radius = 0.5, minor_radius = 0.125 }]
 fractal = [{ center = [-2, 1, 1], radius = 0.5, iterations = 3 }]
+disc = [{ center = [2, 1, 1], normal = [0, 1, 2], radius = 0.5, inner_radius = 0.25 }]
 sky.gradient = [[1, 1, 1], [0, 0, 1]]
 "#;
 
 const TOKENS: &str = "\
-    camera|settings|sky|light|materials|plane|sphere|triangle|quad|box|cylinder|cone|torus|fractal|mesh|eye|\
+    camera|settings|sky|light|materials|plane|sphere|triangle|quad|box|cylinder|cone|torus|fractal|disc|mesh|eye|\
     look_at|up|fov|max_depth|color|attenuation|ambient|gradient|image|rotation|position|power|checker|texture|\
     texture_size|reflectance|transmission|ior|absorption|specular|shininess|normal|distance|center|radius|\
     vertices|normals|uvs|corner|u|v|min|max|base|apex|caps|base_radius|apex_radius|axis|major_radius|\
-    minor_radius|iterations|file|scale|translation|material|colors|size|true|false|nan|inf|1979-05-27T07:32:00Z|\
+    minor_radius|inner_radius|\
+    iterations|file|scale|translation|material|colors|size|true|false|nan|inf|1979-05-27T07:32:00Z|\
     '''|\"\"\"| = |[[sphere]]\n|[materials.a]\n|[|]|{|}|,|.|#|'.'|'/dev/zero'|'mesh.obj'|'clothed.obj'|\
     'scene.toml'|'textures/brick.png'|\"\\u0000\"";

@@ -14,7 +14,7 @@
 
 use glam::{Vec3, vec3};
 use raypacket::render::{Camera, Film, Kernel, PrimaryHits, primary_hits, render};
-use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Fractal, Light, Mesh, Quad, Scene, Sides, Torus};
+use raypacket::scene::{Cone, Cuboid, Cylinder, Description, Disc, Fractal, Light, Mesh, Quad, Scene, Sides, Torus};
 use raypacket::trace::Probe;
 
 use super::SIZE;
@@ -23,7 +23,7 @@ use crate::common::{Pcg, compiled, empty, film_bits, light, mesh, plane, sphere,
 /// A kind's name, and what puts one of its primitives into a scene.
 type Kind = (&'static str, fn(&mut Description, &mut Pcg));
 
-const KINDS: [Kind; 10] = [
+const KINDS: [Kind; 11] = [
     ("planes", |s, rng| s.planes.push(plane(rng.unit() * 3.0, rng.range(4.0, 9.0)))),
     ("spheres", |s, rng| s.spheres.push(sphere(rng.cube() * 2.0, rng.range(0.1, 0.6)))),
     ("triangles", |s, rng| {
@@ -59,6 +59,11 @@ const KINDS: [Kind; 10] = [
     ("fractals", |s, rng| {
         let (center, radius) = (rng.cube() * 2.0, rng.range(0.2, 0.6));
         s.fractals.push(Fractal { center, radius, iterations: rng.below(4) as u32, material: 0 });
+    }),
+    ("discs", |s, rng| {
+        let (center, normal, radius) = (rng.cube() * 2.0, rng.cube(), rng.range(0.2, 0.7));
+        let inner_radius = radius * rng.pick(&[0.0, 0.2, 0.6]);
+        s.discs.push(Disc { center, normal, radius, inner_radius, material: 0 });
     }),
 ];
 
@@ -181,6 +186,7 @@ fn mirrored(scene: &Description, axis: usize) -> Description {
     scene.cones.iter_mut().for_each(|c| [&mut c.base, &mut c.apex].into_iter().for_each(m));
     scene.tori.iter_mut().for_each(|t| [&mut t.center, &mut t.axis].into_iter().for_each(m));
     scene.fractals.iter_mut().for_each(|f| m(&mut f.center));
+    scene.discs.iter_mut().for_each(|d| [&mut d.center, &mut d.normal].into_iter().for_each(m));
     scene
 }
 
@@ -201,6 +207,8 @@ fn scaled(scene: &Description, by: f32) -> Description {
     scene.tori.iter_mut().flat_map(|t| [&mut t.major_radius, &mut t.minor_radius]).for_each(|r| *r *= by);
     scene.tori.iter_mut().for_each(|t| t.center *= by);
     scene.fractals.iter_mut().for_each(|f| (f.center, f.radius) = (f.center * by, f.radius * by));
+    scene.discs.iter_mut().flat_map(|d| [&mut d.radius, &mut d.inner_radius]).for_each(|r| *r *= by);
+    scene.discs.iter_mut().for_each(|d| d.center *= by);
     scene
 }
 
@@ -259,6 +267,7 @@ fn in_another_order() {
             put(&mut other.cones, &order);
             put(&mut other.tori, &order);
             put(&mut other.fractals, &order);
+            put(&mut other.discs, &order);
             let id = |id: u32| order.get(id as usize).map_or(id, |&i| i as u32);
             let image = Views::new(&other, 1.0, Vec3::ONE, Kernel::X8);
             views.expect(&image, 1.0, Vec3::ONE, id, &scene.name);

@@ -358,7 +358,7 @@ fn lights_are_at_their_height_and_rays_end_on_the_surface() {
 fn scenes_are_scaled_and_moved() {
     for (dial, case) in cases("scene-scaled") {
         let plain = find("scene-scaled").expect("a case").make(1.0, 0, 0).description;
-        assert_eq!(case.description.primitives(), 9);
+        assert_eq!(case.description.primitives(), 10);
         let ratio = f64::from(case.description.tori[0].major_radius) / f64::from(plain.tori[0].major_radius);
         assert!((ratio / dial - 1.0).abs() < 1e-6);
         let eye = case.rays[0].origin.as_dvec3().length();

@@ -23,7 +23,9 @@ fn close(a: DVec3, b: DVec3) -> bool {
 }
 
 /// Shape, origin, direction, all t.
-fn whole() -> Vec<(Shape, Vec3, Vec3, Vec<f64>)> {
+type Whole = (Shape, Vec3, Vec3, Vec<f64>);
+
+fn whole() -> Vec<Whole> {
     let floor = Shape::Plane(Plane { normal: vec3(0.0, 3.0, 4.0), distance: -10.0, material: 0 });
     let triangle = Triangle { corners: [Vec3::ZERO, Vec3::X, Vec3::Y], sides: Sides::Both };
     let quad = Quad { corner: Vec3::ZERO, u: Vec3::X, v: Vec3::Y, material: 0 };
@@ -64,7 +66,24 @@ fn whole() -> Vec<(Shape, Vec3, Vec3, Vec<f64>)> {
 /// All of them one after the other, by the interval's beginning; the interval is open at both ends.
 #[test]
 fn whole_numbers() {
-    for (shape, origin, direction, expected) in whole() {
+    in_turn(whole());
+}
+
+#[test]
+fn discs_in_whole_numbers() {
+    // Across (3, 4, 0), with its rim 5 and that of its hole 2.5 away.
+    let ring = Disc { center: Vec3::ZERO, normal: vec3(3.0, 4.0, 0.0), radius: 5.0, inner_radius: 2.5, material: 0 };
+    in_turn(vec![
+        (Shape::Disc(ring), vec3(2.0, 11.0, 0.0), vec3(-3.0, -4.0, 0.0), vec![2.0]),
+        (Shape::Disc(ring), vec3(2.0, 1.5, 1.5), vec3(0.0, -3.0, 0.0), vec![1.0]),
+        (Shape::Disc(ring), vec3(6.0, 8.0, 2.5), vec3(-3.0, -4.0, 0.0), vec![2.0]),
+        (Shape::Disc(ring), vec3(6.0, 8.0, 2.25), vec3(-3.0, -4.0, 0.0), vec![]),
+        (Shape::Disc(ring), vec3(-4.0, 3.0, -9.0), vec3(0.0, 0.0, 1.0), vec![]),
+    ]);
+}
+
+fn in_turn(cases: Vec<Whole>) {
+    for (shape, origin, direction, expected) in cases {
         let ray = Ray::new(origin, direction);
         let mut found = Vec::new();
         let mut t_min = 0.0;
@@ -287,7 +306,7 @@ fn extreme_numbers_are_answered() {
         let mut v = || extreme(&mut random);
         let (a, b, c, ray, size) = (v(), v(), v(), Ray::new(v(), v()), v());
         let (radius, sides, material) = (size.x, Sides::Both, 0);
-        let shape = match i % 6 {
+        let shape = match i % 7 {
             0 => sphere(a, radius),
             1 => Shape::Triangle(Triangle { corners: [a, b, c], sides }),
             2 => Shape::Cuboid(Cuboid { min: a, max: b, rotation: c, material }),
@@ -301,6 +320,7 @@ fn extreme_numbers_are_answered() {
                 material,
             }),
             4 => Shape::Torus(Torus { center: a, axis: b, major_radius: radius, minor_radius: size.y, material }),
+            5 => Shape::Disc(Disc { center: a, normal: b, radius, inner_radius: size.y, material }),
             _ => Shape::Fractal(Fractal { center: a, radius, iterations: 9, material }),
         };
         let truth = nearest(&shape, &ray, 0.0, f64::INFINITY);

@@ -51,6 +51,41 @@ fn triangles_and_quads_by_cramers_rule() {
     assert!(hits[0] > 100 && hits[1] > 100, "{hits:?}");
 }
 
+/// t by Cramer's rule with two edges in the plane, and the distance from the middle by Pythagoras.
+#[test]
+fn discs_by_their_planes() {
+    let mut random = Random(24);
+    let mut hits = [0, 0];
+    for i in 0..2000 {
+        // Centres, normals and rays on a coarse grid meet the rims often.
+        let coarse = |v: Vec3| if i % 2 == 0 { (v * 4.0).round() } else { v };
+        let [center, normal] = [random.vector(), random.vector()].map(coarse);
+        let (u, v) = (vec3(normal.y, -normal.x, 0.0), vec3(0.0, normal.z, -normal.y));
+        let origin = coarse(random.vector() * 3.0);
+        let ray = Ray::new(origin, coarse(random.vector()) - origin);
+        let (radius, inner_radius) = (1.5 + random.below(6) as f32, [0.0, 0.5, 1.0][random.below(3) as usize]);
+        // The edges span nothing where the normal lies in y = 0.
+        if normal.y == 0.0 {
+            continue;
+        }
+        let squares = [inner_radius, radius].map(|r| RBig::from((r * r * 4.0) as i64) / RBig::from(4));
+        let expected = cramer(&ray, &rational3(center), &rational3(u), &rational3(v)).map(|[t, ..]| t).filter(|t| {
+            let q = sub(&at(&ray, t), &rational3(center));
+            let out = dot(&q, &q);
+            *t > RBig::ZERO && squares[0] <= out && out <= squares[1]
+        });
+        let shape = Shape::Disc(Disc { center, normal, radius, inner_radius, material: 0 });
+        let truth = nearest(&shape, &ray, 0.0, f64::INFINITY);
+        assert_eq!(truth.is_some(), expected.is_some(), "{shape:?} {ray:?}");
+        if let (Some(truth), Some(t)) = (truth, expected) {
+            assert_rounded(truth.t, &t);
+            assert!(truth.normal.abs_diff_eq(normal.as_dvec3().normalize(), 1e-15), "{truth:?}");
+            hits[i % 2] += 1;
+        }
+    }
+    assert!(hits[0] > 100 && hits[1] > 100, "{hits:?}");
+}
+
 /// The front is where the corners run counter-clockwise.
 #[test]
 fn triangles_have_sides() {

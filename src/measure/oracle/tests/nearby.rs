@@ -11,12 +11,23 @@ fn decided(shape: &Shape, origin: Vec3, direction: Vec3) -> bool {
 /// than the samples' circle must not.
 #[test]
 fn silhouettes() {
-    let down = -Vec3::Z;
     let round = sphere(Vec3::ZERO, 1.0);
     let ring = torus(2.0, 1.0);
     let quad = Shape::Quad(Quad { corner: vec3(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0, material: 0 });
     let small = sphere(Vec3::ZERO, 2.0 * W as f32);
-    for (shape, edge) in [(round, 1.0), (ring.clone(), 3.0), (ring, 1.0), (quad, 1.0), (small, 2.0 * W as f32)] {
+    silhouettes_at(&[(round, 1.0), (ring.clone(), 3.0), (ring, 1.0), (quad, 1.0), (small, 2.0 * W as f32)]);
+}
+
+#[test]
+fn silhouettes_of_discs() {
+    let disc = Shape::Disc(Disc { center: Vec3::ZERO, normal: Vec3::Z, radius: 3.0, inner_radius: 1.0, material: 0 });
+    silhouettes_at(&[(disc.clone(), 3.0), (disc, 1.0)]);
+}
+
+/// Of shapes about z, so far from it.
+fn silhouettes_at(shapes: &[(Shape, f32)]) {
+    let down = -Vec3::Z;
+    for &(ref shape, edge) in shapes {
         for angle in 0..7 {
             let angle = angle as f32;
             // A quad's silhouette is met across it, at any height.
@@ -30,7 +41,7 @@ fn silhouettes() {
             };
             for clearance in [-1.9f32, -1.1, -0.98, -0.5, 0.0, 0.5, 0.98, 1.1, 1.9] {
                 let origin = around + across * (clearance * W as f32);
-                assert_eq!(decided(&shape, origin, down), clearance.abs() > 1.05, "{clearance} {around} {shape:?}");
+                assert_eq!(decided(shape, origin, down), clearance.abs() > 1.05, "{clearance} {around} {shape:?}");
             }
         }
     }
@@ -132,4 +143,19 @@ fn the_rays_own_answer_is_among_them() {
             Answers::Mixed => {}
         }
     }
+}
+
+/// A hole and a ring that are thin enough to slip between the samples.
+#[test]
+fn discs_with_small_holes_and_thin_rings() {
+    let w = W as f32;
+    let disc = |radius: f32, inner_radius: f32| {
+        Shape::Disc(Disc { center: Vec3::ZERO, normal: Vec3::Z, radius, inner_radius, material: 0 })
+    };
+    let beside = |x: f32| vec3(x, 0.0, 1.0);
+    assert!(!decided(&disc(1.0, 0.01 * w), beside(0.5 * w), -Vec3::Z), "the hole is near");
+    assert!(decided(&disc(1.0, 0.01 * w), beside(1.5 * w), -Vec3::Z), "the hole is far");
+    assert!(decided(&disc(1.0, 0.0), beside(0.5 * w), -Vec3::Z), "no hole");
+    assert!(!decided(&disc(1.0, 1.0 - 0.01 * w), beside(1.0 - 0.5 * w), -Vec3::Z), "the ring is near");
+    assert!(decided(&disc(1.0, 0.01 * w), beside(1.0 + 1.5 * w), -Vec3::Z), "all is far");
 }
