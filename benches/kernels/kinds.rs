@@ -22,20 +22,53 @@ pub trait Kind {
     type Stored: Primitives;
     fn stored(scene: &Scene) -> &Self::Stored;
     /// Adds one, with the origin outside.
-    fn add(scene: &mut Description, rng: &mut Pcg);
+    fn add(scene: &mut Description, rng: &mut Draw);
+}
+
+/// A source of random primitives.
+pub struct Draw<'a> {
+    rng: &'a mut Pcg,
+    /// How far apart they are: within 4 to 7 of the origin, along −z, with 1.
+    spread: f32,
+}
+
+impl Draw<'_> {
+    fn ahead(&mut self) -> Vec3 {
+        let spread = self.spread;
+        let [x, y] = [0; 2].map(|_| self.rng.range(-2.0, 2.0) * spread);
+        vec3(x, y, -5.0 + (self.rng.range(-1.0, 1.0) - 1.0) * spread + 1.0)
+    }
+}
+
+impl std::ops::Deref for Draw<'_> {
+    type Target = Pcg;
+    fn deref(&self) -> &Pcg {
+        self.rng
+    }
+}
+
+impl std::ops::DerefMut for Draw<'_> {
+    fn deref_mut(&mut self) -> &mut Pcg {
+        self.rng
+    }
 }
 
 /// A scene of one kind.
 pub fn sixteen<K: Kind>(rng: &mut Pcg) -> Description {
-    let mut scene = empty();
-    scene.name = K::NAME.into();
-    (0..PRIMITIVES).for_each(|_| K::add(&mut scene, rng));
-    scene
+    scene::<K>(PRIMITIVES, 1.0, rng)
 }
 
-/// Within 4 to 7 of the origin, along −z.
-fn ahead(rng: &mut Pcg) -> Vec3 {
-    vec3(rng.range(-2.0, 2.0), rng.range(-2.0, 2.0), rng.range(-6.0, -4.0))
+/// A scene of ten thousand of one kind, some sizes apart.
+pub fn many<K: Kind>(rng: &mut Pcg) -> Description {
+    scene::<K>(10_000, 15.0, rng)
+}
+
+fn scene<K: Kind>(count: usize, spread: f32, rng: &mut Pcg) -> Description {
+    let mut scene = empty();
+    scene.name = K::NAME.into();
+    let mut draw = Draw { rng, spread };
+    (0..count).for_each(|_| K::add(&mut scene, &mut draw));
+    scene
 }
 
 macro_rules! kind {
@@ -49,7 +82,7 @@ macro_rules! kind {
             fn stored(scene: &Scene) -> &$stored {
                 &scene.$field
             }
-            fn add($scene: &mut Description, $rng: &mut Pcg) {
+            fn add($scene: &mut Description, $rng: &mut Draw) {
                 $add;
             }
         }
@@ -64,21 +97,21 @@ kind!(Plane, "plane", planes: Planes, 8.0, |scene, rng| {
 
 // The discriminant is off by 8 ε |f|² at the most, and the hit by that over the radius: below 8 ε · 64 / 0.2.
 kind!(Sphere, "sphere" by "stable", spheres: Spheres, 320.0, |scene, rng| {
-    scene.spheres.push(scenes::sphere(ahead(rng), rng.range(0.2, 0.9)));
+    scene.spheres.push(scenes::sphere(rng.ahead(), rng.range(0.2, 0.9)));
 });
 
 // 8 ε (|o − a| + edge) / sin of the smallest angle: below 8 ε · 12 / 0.2.
 kind!(Triangle, "triangle" by "watertight", triangles: Triangles, 60.0, |scene, rng| {
     // Close to equilateral, and turned towards the origin more or less.
     let around = [vec3(0.0, 1.0, 0.0), vec3(0.87, -0.5, 0.0), vec3(-0.87, -0.5, 0.0)];
-    let center = ahead(rng);
+    let center = rng.ahead();
     scene.meshes.push(mesh(&[around.map(|corner| center + corner + 0.3 * rng.cube())]));
 });
 
 // As for triangles.
 kind!(Quad, "quad", quads: Quads, Triangle::OFF, |scene, rng| {
     let [u, v] = [Vec3::X, Vec3::Y].map(|e| e + 0.3 * rng.cube());
-    scene.quads.push(scene::Quad { corner: ahead(rng), u, v, material: 0 });
+    scene.quads.push(scene::Quad { corner: rng.ahead(), u, v, material: 0 });
 });
 
 // 3 ε t, and 2 ε t for the direction's length.
@@ -105,44 +138,44 @@ kind!(CappedCone, "cone/capped", cones: Cones, OpenCone::OFF, |scene, rng| cone(
 // 12 ε (R + r) + 4 ε |o − center|, below 12 ε · 1.2 + 4 ε · 7, and 2 ε t for the direction's length; twice that at a
 // tangent.
 kind!(Torus, "torus", tori: Tori, 2.0 * 5.5, |scene, rng| {
-    let (center, axis) = (ahead(rng), rng.unit());
+    let (center, axis) = (rng.ahead(), rng.unit());
     let (major_radius, minor_radius) = (rng.range(0.4, 0.9), rng.range(0.1, 0.3));
     scene.tori.push(scene::Torus { center, axis, major_radius, minor_radius, material: 0 });
 });
 
 // 4 ε |o − center| + 5 ε radius, and 2 ε t for the direction's length.
 kind!(Fractal, "fractal", fractals: Fractals, 5.0, |scene, rng| {
-    let (center, radius) = (ahead(rng), rng.range(0.3, 0.8));
+    let (center, radius) = (rng.ahead(), rng.range(0.3, 0.8));
     scene.fractals.push(scene::Fractal { center, radius, iterations: 3, material: 0 });
 });
 
 // 8 ε (|o − center| + radius), below 8 ε · (t + 2 · 0.9), and 2 ε t for the direction's length. Half of them rings.
 kind!(Disc, "disc", discs: Discs, 10.0, |scene, rng| {
-    let (center, normal, radius) = (ahead(rng), Vec3::Z + 0.3 * rng.cube(), rng.range(0.6, 0.9));
+    let (center, normal, radius) = (rng.ahead(), Vec3::Z + 0.3 * rng.cube(), rng.range(0.6, 0.9));
     let inner_radius = rng.pick(&[0.0, 0.2]);
     scene.discs.push(scene::Disc { center, normal, radius, inner_radius, material: 0 });
 });
 
-fn cuboid(scene: &mut Description, rotation: Vec3, rng: &mut Pcg) {
-    let (center, half) = (ahead(rng), Vec3::splat(0.5) + 0.3 * rng.cube());
+fn cuboid(scene: &mut Description, rotation: Vec3, rng: &mut Draw) {
+    let (center, half) = (rng.ahead(), Vec3::splat(0.5) + 0.3 * rng.cube());
     scene.cuboids.push(scene::Cuboid { min: center - half, max: center + half, rotation, material: 0 });
 }
 
-fn cylinder(scene: &mut Description, caps: bool, rng: &mut Pcg) {
+fn cylinder(scene: &mut Description, caps: bool, rng: &mut Draw) {
     let [base, apex] = ends(rng);
     let radius = rng.range(0.2, 0.7);
     scene.cylinders.push(scene::Cylinder { base, apex, radius, caps, sides: Sides::Both, material: 0 });
 }
 
 /// Every other one with a tip.
-fn cone(scene: &mut Description, caps: bool, rng: &mut Pcg) {
+fn cone(scene: &mut Description, caps: bool, rng: &mut Draw) {
     let [base, apex] = ends(rng);
     let (base_radius, apex_radius) = (rng.range(0.4, 0.9), rng.pick(&[0.0, 0.2]));
     let sides = Sides::Both;
     scene.cones.push(scene::Cone { base, base_radius, apex, apex_radius, caps, sides, material: 0 });
 }
 
-fn ends(rng: &mut Pcg) -> [Vec3; 2] {
-    let base = ahead(rng);
+fn ends(rng: &mut Draw) -> [Vec3; 2] {
+    let base = rng.ahead();
     [base, base + rng.range(0.8, 1.8) * rng.unit()]
 }
