@@ -51,7 +51,7 @@
 //! - [`scene`]: what the user wrote, a file a kind of primitive, its readers and rules, the built-in scenes, `compile`,
 //!   the plan
 //! - [`bvh`]: the acceleration structure: build and layout
-//! - [`geometry`]: a file a primitive: storage, tests by named [`geometry::methods`], surface
+//! - [`geometry`]: a file a kind of primitive: storage, tests by named [`geometry::methods`], surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
 //! - [`reference`](mod@reference): the scalar tracer that the others are checked against
 //! - [`files`]: writing files whole or not at all
@@ -67,15 +67,18 @@
 //! - **At equal distance the lowest primitive id wins.** Ids count through the kinds in the order of
 //!   [`scene::Scene`]'s fields: planes, spheres, triangles, quads and so on.
 //! - **The tree loses no hit.** Where the plan has one ([`bvh`]), answers for rays of finite numbers are those of
-//!   testing everything, to the bit: its boxes are wider than what rounding can do, and all hits but spheres', whose
-//!   test errs like a slightly larger sphere, count only within a box of the primitive's own. On every width a beam or a
-//!   ray is tested against eight boxes at a time, or a box against sixteen rays.
+//!   testing everything, to the bit: its boxes are wider than what rounding can do, and hits count only within a box of
+//!   the primitive's own, but for spheres, cylinders and cones, whose tests err like a slightly moved ray. On every width
+//!   a beam or a ray is tested against eight boxes at a time, or a box against sixteen rays.
+//! - **A kind of primitive is stated once**: a row in `src/kinds.rs`, and a file in each of `scene/kinds`, `geometry`,
+//!   `viewer/outline`, `reference` and `measure/oracle`. Where a part is left out, it does not compile. Every kind has
+//!   blocks of eight in the tree: one ray is tested against eight primitives, or a packet against each, by one text.
 //! - **[`math::Lanes::mul_add`] is fused on every width or on none**: fused in a build with FMA instructions, two
 //!   roundings in a build without. So two builds may differ, each within the bounds that
 //!   [`measure::verify`] checks.
 //! - **One place says where secondary rays start and end**: `shade/spawn.rs`, by a bound on the rounding, not by an
-//!   epsilon that somebody chose; fixed ones are there to be compared with. Shadow rays start at the light, or at the point when the light is too far from
-//!   something small ([`scene::ShadowStart`]).
+//!   epsilon that somebody chose; fixed ones are there to be compared with. Shadow rays start at the light, or at the
+//!   point when the light is too far from something small ([`scene::ShadowStart`]).
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -32,8 +32,9 @@ pub(super) fn axes(base: Vec3, apex: Vec3) -> ([DVec3; 3], f64) {
     ([tangent, tangent.cross(axis), axis], length)
 }
 
-/// A box around discs across the unit `axis`, by their middles and radii, with room for the tests' rounding.
-pub(super) fn bounds(axis: Vec3, discs: [(Vec3, f32); 2]) -> [Vec3; 2] {
+/// A box around discs across the unit `axis`, by their middles and radii, with room for the rounding of tests of a body of
+/// this size.
+pub(super) fn bounds(axis: Vec3, discs: [(Vec3, f32); 2], size: f32) -> [Vec3; 2] {
     let axis = axis.as_dvec3();
     // √(1 − A²) a component, without cancelling.
     let across = DVec3::new(axis.y.hypot(axis.z), axis.z.hypot(axis.x), axis.x.hypot(axis.y));
@@ -43,7 +44,7 @@ pub(super) fn bounds(axis: Vec3, discs: [(Vec3, f32); 2]) -> [Vec3; 2] {
     });
     let (low, high) = (ends[0][0].min(ends[1][0]), ends[0][1].max(ends[1][1]));
     // The axes are rounded, by ε of the size; the tests are off by less than 16 ε of it.
-    let slack = 16.0 * f64::from(f32::EPSILON) * (low.abs().max(high.abs()).max_element() + (high - low).length());
+    let slack = 16.0 * f64::from(f32::EPSILON) * (low.abs().max(high.abs()).max_element() + f64::from(size));
     [(low - slack).as_vec3(), (high + slack).as_vec3()]
 }
 

@@ -233,7 +233,7 @@ impl Bounded for Cones {
             let part = k as f32 / n as f32;
             (narrow + axis * (self.length[i] * part), inner * (1.0 - part) + outer * part)
         };
-        axial::bounds(axis, [end(k), end(k + 1)])
+        axial::bounds(axis, [end(k), end(k + 1)], self.length[i] + inner.max(outer))
     }
 }
 

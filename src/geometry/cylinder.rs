@@ -151,7 +151,7 @@ impl Bounded for Cylinders {
             let height = self.length[i] * (k as f32 / n as f32);
             (self.base(i) + self.axes[i][2] * height, self.radius[i])
         };
-        axial::bounds(self.axes[i][2], [end(k), end(k + 1)])
+        axial::bounds(self.axes[i][2], [end(k), end(k + 1)], self.length[i] + self.radius[i])
     }
 }
 

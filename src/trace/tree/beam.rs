@@ -10,11 +10,17 @@
 //! distance (see their files: at most 32 ε (D + |o|), with D the distance of the scene's farthest corner along any
 //! axis), and the arithmetic here moves a face by at most 8 ε (D + |o|) (as Ize, *Robust BVH Ray Traversal*, JCGT 2
 //! (2013), adds it to the exit; here every face is moved, as the primitives' own error goes across the ray as well). So all
-//! boxes are wider by [`PAD`] (D + |o|) on all sides. No hit is found before the ray enters that box: the spheres'
-//! test errs as if the sphere were larger by 12 ε |f|, and all others keep their hits within boxes of their own, wider
-//! by 32 ε D ([`crate::geometry::triangle::Flat`], [`crate::trace::packet`]). The spheres' error is 21 ε D at most, as
-//! |f| ≤ √3 D; their boxes, rounded to nearest, add ε (D + |o|), a direction that is 84 ε too long or short, as a ray
-//! file's may be, less than 30 ε of a radius: less than 64 in all.
+//! boxes are wider by [`PAD`] (D + |o|) on all sides. No hit is found before the ray enters that box:
+//!
+//! - The spheres' test errs as if the sphere were larger by 12 ε |f|, which is 21 ε D at most, as |f| ≤ √3 D. Their boxes,
+//!   rounded to nearest, add ε (D + |o|), a direction that is 84 ε too long or short, as a ray file's may be, less than
+//!   30 ε of a radius: less than 64 in all.
+//! - The cylinders' and cones' tests err as if the ray were moved by 12 ε (|f| + length + radius) and turned by 8 ε, so
+//!   that a hit lies within 35 ε D + 12 ε (length + radius) of the surface, and of the piece that the tree has cut there.
+//!   The first is less than 64 ε D; the boxes of these bodies and of their pieces are made wider by 32 ε of the body's
+//!   size and place, which is more than the second.
+//! - All others keep their hits within boxes of their own, wider by 32 ε D ([`crate::geometry::triangle::Flat`],
+//!   [`crate::trace::packet`]).
 
 use crate::bvh::Bvh;
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
