@@ -4,7 +4,6 @@ use std::fmt;
 
 use super::kind::{Child, Kind};
 use super::limits::BLOCK;
-use super::prefetch::lines;
 use crate::geometry::*;
 use crate::kinds::for_each_kind;
 use crate::math::NONE;
@@ -149,17 +148,11 @@ macro_rules! blocks {
                 }
             }
 
-            /// Begins to bring a block near.
-            #[inline(always)]
-            pub(super) fn fetch(&self, block: Child) {
-                let i = block.index();
-                match block.kind() {
-                    $(Kind::$Storage => {
-                        let block = self.$field.blocks.get(i);
-                        lines(size_of::<Block<$Storage>>(), block.map(|block| &block.id[..]));
-                    })*
-                    Kind::Node | Kind::Nothing => (),
-                }
+            /// Shows the ids that the first block of each kind begins with, and the bytes of a block.
+            pub(super) fn places<'a>(&'a self, mut show: impl FnMut(Kind, &'a [u32], usize)) {
+                $(if let Some(block) = self.$field.blocks.first() {
+                    show(Kind::$Storage, &block.id, size_of::<Block<$Storage>>());
+                })*
             }
         }
     };

@@ -3,11 +3,41 @@
 
 use super::kind::{Child, Kind};
 use super::node::Node;
-use super::prefetch::lines;
 use super::tree::Bvh;
+use prefetch_index::prefetch_index;
 
-impl Bvh {
-    /// The children of a node whose bits are set, at least one.
+/// Bytes of a cache line.
+const LINE: usize = 64;
+
+/// Lines that are asked for at once; the processor fetches what follows by itself.
+const LINES: usize = 4;
+
+/// Where the nodes and the blocks of every kind lie: so a child's place is computed without a choice, which would be
+/// guessed wrong as often as not.
+#[derive(Clone, Copy, Debug)]
+pub struct Places<'a> {
+    /// The first of each kind, as numbers.
+    first: [&'a [u32]; 16],
+    /// Numbers from one to the next.
+    stride: [usize; 16],
+}
+
+impl<'a> Places<'a> {
+    /// Of a tree.
+    pub fn of(bvh: &'a Bvh) -> Self {
+        let mut places = Self { first: [&[]; 16], stride: [0; 16] };
+        if let Some(node) = bvh.nodes.first() {
+            places.put(Kind::Node, bytemuck::cast_slice(&node.ends[0][0]), size_of::<Node>());
+        }
+        bvh.blocks.places(|kind, first, bytes| places.put(kind, first, bytes));
+        places
+    }
+
+    fn put(&mut self, kind: Kind, first: &'a [u32], bytes: usize) {
+        (self.first[kind as usize], self.stride[kind as usize]) = (first, bytes / size_of::<u32>());
+    }
+
+    /// Fetches the children of a node whose bits are set, at least one.
     #[inline(always)]
     pub(crate) fn fetch(&self, node: &Node, mut met: u32) {
         // One alone is next.
@@ -20,15 +50,11 @@ impl Bvh {
         }
     }
 
-    /// One child, from its first cache line to its last.
+    /// Fetches one child.
     #[inline(always)]
     pub(crate) fn fetch_child(&self, child: Child) {
-        match child.kind() {
-            Kind::Node => {
-                let node = self.nodes.get(child.index());
-                lines(size_of::<Node>(), node.map(|node| &node.ends[0][0][..]));
-            }
-            _ => self.blocks.fetch(child),
-        }
+        let kind = child.number();
+        let at = self.stride[kind] * child.index();
+        (0..LINES).for_each(|line| prefetch_index(self.first[kind], at + LINE / size_of::<u32>() * line));
     }
 }

@@ -96,7 +96,13 @@ impl Child {
     /// The child's kind; [`Kind::Nothing`] for [`Child::EMPTY`].
     #[inline(always)]
     pub fn kind(self) -> Kind {
-        Kind::BY_NUMBER[(self.0 >> INDEX_BITS) as usize]
+        Kind::BY_NUMBER[self.number()]
+    }
+
+    /// The number of its kind, below 16.
+    #[inline(always)]
+    pub(super) fn number(self) -> usize {
+        (self.0 >> INDEX_BITS) as usize
     }
 
     /// As a number.

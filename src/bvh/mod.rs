@@ -25,7 +25,6 @@ mod kind;
 mod layout;
 mod limits;
 mod node;
-mod prefetch;
 mod refs;
 mod source;
 mod stats;
@@ -35,6 +34,7 @@ mod tree;
 
 pub use aabb::Aabb;
 pub use block::{Block, BlockList, Blocks};
+pub use fetch::Places;
 pub use kind::{Child, Class, Kind};
 pub use limits::*;
 pub use node::Node;

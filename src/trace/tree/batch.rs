@@ -4,7 +4,7 @@ use super::beam::Beam;
 use super::packet::PACKET;
 use super::state::State;
 use super::walk::Walk;
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, Places};
 use crate::geometry::{Planes, Primitives};
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
 use crate::scene::Scene;
@@ -58,7 +58,7 @@ fn answer<Q: Query, L: Lanes>(
     state: &mut State,
 ) {
     state.start::<L::Wider>(rays, !scene.triangles.is_empty());
-    let mut walk = Walk { scene, bvh, rays, prefetch, state };
+    let mut walk = Walk { scene, bvh, places: Places::of(bvh), rays, prefetch, state };
     if !scene.planes.is_empty() {
         let Some(bounds) = bounds() else { return };
         walk.planes::<Q, L>(&bounds);

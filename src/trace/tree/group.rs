@@ -37,7 +37,7 @@ impl Walk<'_> {
                     let node = &bvh.nodes[child.index()];
                     let (enter, met) = beam.meets::<MIXED>(|axis, near| node.faces(axis, near), f32x8::splat(limit));
                     if met != 0 {
-                        bvh.fetch(node, met);
+                        self.places.fetch(node, met);
                         child = self.state.stack.nearest(node, &enter.to_array(), met).child();
                         continue;
                     }

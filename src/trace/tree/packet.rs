@@ -124,7 +124,7 @@ impl Walk<'_> {
             let (enter, met) = packet.meets::<MIXED>(node, lane, end);
             let lanes = met & part.lanes;
             if lanes != 0 {
-                self.bvh.fetch_child(child);
+                self.places.fetch_child(child);
                 let far = f32x16::splat(f32::INFINITY);
                 let enter = Lanes::select(enter, LaneMask::from_bits(lanes), far).least();
                 self.state.parts.sort_in(base, Part { enter, child, lanes });

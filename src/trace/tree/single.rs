@@ -27,7 +27,7 @@ impl Walk<'_> {
                     let node = &bvh.nodes[child.index()];
                     let (enter, met) = line.meets(node, f32x8::splat(limit));
                     if met != 0 {
-                        bvh.fetch(node, met);
+                        self.places.fetch(node, met);
                         let (stack, enter) = (&mut self.state.stack, enter.to_array());
                         let next = if Q::ANY { stack.any(node, &enter, met) } else { stack.nearest(node, &enter, met) };
                         child = next.child();

@@ -1,7 +1,7 @@
 //! The data that a traversal works on.
 
 use super::state::State;
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, Places};
 use crate::math::RayBatch;
 use crate::scene::Scene;
 use crate::trace::prefetch::Prefetch;
@@ -11,6 +11,7 @@ use crate::trace::prefetch::Prefetch;
 pub struct Walk<'a> {
     pub scene: &'a Scene,
     pub bvh: &'a Bvh,
+    pub places: Places<'a>,
     pub rays: &'a RayBatch,
     pub prefetch: Prefetch<'a>,
     pub state: &'a mut State,
