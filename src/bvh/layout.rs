@@ -1,5 +1,6 @@
 //! Wide nodes and blocks, in the order in which a traversal that goes left first comes by.
 
+use super::aabb::Aabb;
 use super::build::{Binary, Tree};
 use super::kind::{Child, Kind};
 use super::limits::{BLOCK, WIDTH};
@@ -22,21 +23,21 @@ struct Layout<'a, S> {
     /// The ids of every block; a list for each of [`Kind::BLOCKS`].
     ids: Vec<Vec<[u32; BLOCK]>>,
     depth: usize,
-    /// The sums of the squares and the cubes of the blocks' largest extents, but for the largest blocks.
-    extents: [f64; 2],
+    /// The sums of the squares and the cubes of the blocks' sizes, but for the largest blocks.
+    sizes: [f64; 2],
 }
 
 /// The tree as it is traversed.
 pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
     let ids = vec![Vec::new(); Kind::BLOCKS.len()];
-    let mut layout = Layout { source, tree, nodes: Vec::new(), ids, depth: 0, extents: [0.0; 2] };
+    let mut layout = Layout { source, tree, nodes: Vec::new(), ids, depth: 0, sizes: [0.0; 2] };
     let root = layout.child(Place::default(), 1);
     Bvh {
         blocks: source.blocks(&layout.ids),
         root,
         bounds: tree.nodes[0].bounds,
         depth: layout.depth,
-        grain: match layout.extents {
+        grain: match layout.sizes {
             // All are large.
             [0.0, _] => (tree.nodes[0].bounds.max - tree.nodes[0].bounds.min).max_element() / 8.0,
             [squares, cubes] => (cubes / squares) as f32,
@@ -86,12 +87,10 @@ impl<S: Source> Layout<'_, S> {
 
     fn leaf(&mut self, place: Place, binary: &Binary) -> Child {
         let class = self.source.class(self.tree.order[place.first] as usize);
-        let bounds = binary.bounds;
-        let all = self.tree.nodes[0].bounds;
-        let extent = f64::from((bounds.max - bounds.min).max_element());
-        if extent * 8.0 <= f64::from((all.max - all.min).max_element()) {
-            self.extents[0] += extent * extent;
-            self.extents[1] += extent * extent * extent;
+        let size = self::size(binary.bounds);
+        if size * 8.0 <= self::size(self.tree.nodes[0].bounds) {
+            self.sizes[0] += size * size;
+            self.sizes[1] += size * size * size;
         }
         let mut ids = [NONE; BLOCK];
         let order = &self.tree.order[place.first..][..binary.len as usize];
@@ -110,4 +109,9 @@ impl<S: Source> Layout<'_, S> {
         list.push(ids);
         Child::new(class.kind(), list.len() - 1)
     }
+}
+
+/// The edge of a square of half a box's area: what is long and thin is met by as few rays as a smaller square.
+fn size(bounds: Aabb) -> f64 {
+    bounds.area_f64().sqrt()
 }

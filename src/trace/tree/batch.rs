@@ -13,7 +13,7 @@ use crate::trace::prefetch::Prefetch;
 use crate::trace::query::{Found, Query};
 use std::ops::Range;
 
-// These four were measured on balls, ico1k, bunny and terrain1m.
+// These four were measured on balls, ico1k, bunny and terrain1m, and on frames of gears, rings and tree.
 
 /// A part of no more rays is not cut further: it is traced as a group, or as a packet where it is too wide for that.
 const GROUP: usize = PACKET;
@@ -23,9 +23,9 @@ const WIDEST: f32 = 0.5;
 const FAR: f32 = 1.5;
 /// How far apart they may be there for the smallest group not to become a packet; first for a common origin, from where
 /// its rays spread before they meet anything.
-const FAR_ALONE: [f32; 2] = [3.0, 20.0];
+const FAR_ALONE: [f32; 2] = [3.0, 14.0];
 /// How far apart the origins may be, for both.
-const NEAR: [f32; 2] = [1.0, 1.5];
+const NEAR: [f32; 2] = [0.8, 1.5];
 
 /// Answers a query for a batch; see [`crate::trace::trace`].
 #[inline(always)]
