@@ -111,7 +111,8 @@ impl<S: Source> Layout<'_, S> {
     }
 }
 
-/// The edge of a square of half a box's area: what is long and thin is met by as few rays as a smaller square.
+/// A box's largest extent, or the edge of a square of half its area if that is less: what is long and thin is met by as
+/// few rays as a smaller square.
 fn size(bounds: Aabb) -> f64 {
-    bounds.area_f64().sqrt()
+    bounds.area_f64().sqrt().min(f64::from((bounds.max - bounds.min).max_element()))
 }

@@ -18,8 +18,8 @@ pub struct Bvh {
     pub bounds: Aabb,
     /// The most nodes on a way from the root to a block; at most [`MAX_DEPTH`](super::MAX_DEPTH).
     pub depth: usize,
-    /// How large blocks are: the mean edge of squares of half their boxes' area, weighted by area, without those of an
-    /// eighth of the whole and more; an eighth of the whole's largest extent when there are no others.
+    /// How large blocks are: the mean of their largest extents, or of the edges of squares of half their area where those
+    /// are less, weighted by area, without those of an eighth of the whole and more; an eighth of the whole's largest extent when there are no others.
     pub grain: f32,
 }
 

@@ -23,9 +23,9 @@ const WIDEST: f32 = 0.5;
 const FAR: f32 = 1.5;
 /// How far apart they may be there for the smallest group not to become a packet; first for a common origin, from where
 /// its rays spread before they meet anything.
-const FAR_ALONE: [f32; 2] = [3.0, 14.0];
+const FAR_ALONE: [f32; 2] = [3.0, 20.0];
 /// How far apart the origins may be, for both.
-const NEAR: [f32; 2] = [0.8, 1.5];
+const NEAR: [f32; 2] = [1.0, 1.5];
 
 /// Answers a query for a batch; see [`crate::trace::trace`].
 #[inline(always)]
