@@ -77,9 +77,9 @@ fn kind_in_tree<K: Kind>(criterion: &mut Criterion) {
     let mut rng = Pcg::new(5);
     let description = many::<K>(&mut rng);
     let name = format!("{}/10000", K::NAME);
-    let beams = Beams::new(&description, &mut rng);
     let [list, tree] = [Structure::None, Structure::Tree]
         .map(|structure| compile_with(&description, &structure.into()).expect("a sound scene"));
+    let beams = Beams::of_scene(&tree, &mut rng);
     let expected = answers::<f32>(&name, &list, &beams.rays);
     agree::<f32>(&name, &tree, &beams.rays, &expected);
     widths(criterion, &name, &tree, &beams.rays, &expected);
