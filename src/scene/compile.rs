@@ -52,8 +52,7 @@ macro_rules! scene {
             )*)*
             /// The first id of every kind.
             pub first: First,
-            /// Boxes around all from the quads on, in the order of their ids: hits count only within these, widened by
-            /// 32 ε of their farthest corner's distance.
+            /// Boxes around all from the quads on, in the order of their ids.
             pub boxes: Vec<Aabb>,
             /// The tree of all but the planes, where the plan asks for one.
             pub bvh: Option<Bvh>,

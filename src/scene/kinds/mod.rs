@@ -68,7 +68,7 @@ pub(crate) trait Kind: Sized {
     fn store(&self, to: &mut Self::Storage);
     /// Tells the arrays by which methods they are tested.
     fn set_methods(_to: &mut Self::Storage, _methods: &Methods) {}
-    /// A box around primitive `i` of the arrays, where hits count within it alone.
+    /// A box around primitive `i` of the arrays; none for planes, spheres and triangles.
     fn bounds(of: &Self::Storage, i: usize) -> Option<Aabb>;
 
     /// The method that it is tested by, if it is not the default.
