@@ -15,8 +15,8 @@ pub const NONE: u32 = u32::MAX;
 ///
 /// A ray is active when its `t_max` ≥ 0 (NaN is not). Directions have unit length, to within 4 ε (those of a ray file to
 /// within 84 ε); distances are then in world units. A query looks at the open interval (`t_min`, `t_max`), 0 ≤ `t_min`.
-/// A ray with a NaN or infinite component hits nothing, or whatever the arithmetic makes of it, and leaves the
-/// other rays of its batch alone.
+/// A ray with a NaN or infinite component, or one that starts more than 2⁶⁸ away along an axis, hits nothing, or whatever
+/// the arithmetic makes of it, and leaves the other rays of its batch alone.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct RayBatch {

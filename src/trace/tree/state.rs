@@ -13,7 +13,7 @@ use crate::trace::query::Query;
 #[repr(align(64))]
 pub struct State {
     /// The nearest distance so far, the ray's `t_max` before there is any; −∞ for a blocked ray when any hit will do; NaN
-    /// for an inactive one and one with NaN or infinite components, which hits nothing.
+    /// for an inactive one and one with NaN or components beyond 2⁶⁸, which hits nothing.
     pub t: [f32; BATCH],
     /// The primitive there, or [`NONE`].
     pub id: [u32; BATCH],
@@ -40,19 +40,24 @@ impl Default for State {
     }
 }
 
+/// The largest number over the largest coordinate, 2⁶⁸, that a ray may start at: from beyond, products of the boxes'
+/// arithmetic would overflow, and whether a box is met would hang on the company.
+const TOO_FAR: f32 = (1u64 << 60) as f32;
+
 impl State {
     /// For a new batch; `triangles` says whether there are any.
     #[inline(always)]
     pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
         // Beams look at eight rays at a time and packets at sixteen, whatever the width.
         self.t[rays.len..rays.len.next_multiple_of(MAX_LANES)].fill(f32::NAN);
+        let too_far = L::splat(TOO_FAR);
         // Column by column, as they lie in memory: what comes from there comes at twice the speed.
         let origins = rays.origin.iter().filter(|_| !rays.common_origin);
         for (i, column) in origins.chain(&rays.direction).enumerate() {
             for at in (0..rays.len).step_by(L::WIDTH) {
                 let others = if i == 0 { L::zero() } else { L::load(&self.t[at..]) };
                 // 0 · ∞ is NaN.
-                L::load(&column[at..]).mul_add(L::zero(), others).store(&mut self.t[at..]);
+                (L::load(&column[at..]) * too_far).mul_add(L::zero(), others).store(&mut self.t[at..]);
             }
         }
         for at in (0..rays.len).step_by(L::WIDTH) {
@@ -66,7 +71,7 @@ impl State {
             t.select(t_max.ge(L::zero()), L::splat(f32::NAN)).store(&mut self.t[at..]);
             L::splat_id(NONE).store_ids(&mut self.id[at..]);
         }
-        if rays.common_origin && !rays.first_origin().is_finite() {
+        if rays.common_origin && !(rays.first_origin() * TOO_FAR).is_finite() {
             self.t[..rays.len].fill(f32::NAN);
         }
         if triangles {
