@@ -3,8 +3,7 @@
 use glam::{DVec3, Vec3, vec3};
 use raypacket::math::{BATCH, RayBatch};
 use raypacket::reference::{Hit, Tracer};
-use raypacket::scene::{Description, Scene};
-use raypacket::trace::Probe;
+use raypacket::scene::Description;
 
 use crate::scenes::{Pcg, ROUNDOFF};
 
@@ -21,42 +20,42 @@ pub struct Beams {
 }
 
 impl Beams {
-    /// Full of beams around −z, as many that hit as miss, in random order, and what the reference says of them.
+    /// Full of beams around −z, as many that hit as miss, in random order.
     pub fn new(description: &Description, rng: &mut Pcg) -> Self {
         let tracer = Tracer::new(description);
-        Self::full(rng, |d| tracer.intersect(DVec3::ZERO, d.as_dvec3().normalize(), f64::INFINITY))
-    }
-
-    /// The same beams by what a compiled scene says, as the reference would take minutes for thousands of primitives.
-    pub fn of_scene(scene: &Scene, rng: &mut Pcg) -> Self {
-        let mut probe = Probe::default();
-        Self::full(rng, |d| {
-            let hit = probe.intersect(scene, Vec3::ZERO, d)?;
-            Some(Hit { t: hit.t.into(), primitive: hit.primitive, normal: DVec3::ZERO })
-        })
-    }
-
-    fn full(rng: &mut Pcg, mut hit: impl FnMut(Vec3) -> Option<Hit>) -> Self {
         let mut beams = Self { rays: RayBatch::default(), hits: Vec::new() };
         // Hits and misses that are yet to come.
         let mut wanted = [BATCH / BEAM / 2; 2];
         while wanted != [0; 2] {
             let miss = usize::from(rng.below(wanted[0] + wanted[1]) >= wanted[0]);
             wanted[miss] -= 1;
-            beams.push(&mut hit, miss == 1, rng);
+            beams.push(&tracer, miss == 1, rng);
         }
         assert_eq!(beams.rays.len, BATCH);
         beams
     }
 
+    /// Full of beams around −z, wherever they go.
+    pub fn anywhere(rng: &mut Pcg) -> Self {
+        let mut beams = Self { rays: RayBatch::default(), hits: Vec::new() };
+        for _ in 0..BATCH / BEAM {
+            let directions = Self::directions(rng);
+            directions.iter().for_each(|&d| beams.rays.push(Vec3::ZERO, d, 0.0, f32::INFINITY));
+        }
+        beams
+    }
+
+    /// Those of a beam.
+    fn directions(rng: &mut Pcg) -> [Vec3; BEAM] {
+        let corner = vec3(rng.range(-0.5, 0.5), rng.range(-0.5, 0.5), -1.0);
+        std::array::from_fn(|_| (corner + vec3(rng.range(0.0, SPREAD), rng.range(0.0, SPREAD), 0.0)).normalize())
+    }
+
     /// Adds a beam of which every ray hits, or misses.
-    fn push(&mut self, hit: &mut impl FnMut(Vec3) -> Option<Hit>, miss: bool, rng: &mut Pcg) {
+    fn push(&mut self, tracer: &Tracer, miss: bool, rng: &mut Pcg) {
         for _ in 0..10_000 {
-            let corner = vec3(rng.range(-0.5, 0.5), rng.range(-0.5, 0.5), -1.0);
-            let directions: [Vec3; BEAM] = std::array::from_fn(|_| {
-                (corner + vec3(rng.range(0.0, SPREAD), rng.range(0.0, SPREAD), 0.0)).normalize()
-            });
-            let hits = directions.map(&mut *hit);
+            let directions = Self::directions(rng);
+            let hits = directions.map(|d| tracer.intersect(DVec3::ZERO, d.as_dvec3().normalize(), f64::INFINITY));
             if hits.iter().all(|hit| hit.is_none() == miss) {
                 directions.iter().for_each(|&d| self.rays.push(Vec3::ZERO, d, 0.0, f32::INFINITY));
                 self.hits.extend(hits);

@@ -60,7 +60,7 @@ pub fn sixteen<K: Kind>(rng: &mut Pcg) -> Description {
 
 /// A scene of ten thousand of one kind, some sizes apart.
 pub fn many<K: Kind>(rng: &mut Pcg) -> Description {
-    scene::<K>(10_000, 15.0, rng)
+    scene::<K>(10_000, 24.0, rng)
 }
 
 fn scene<K: Kind>(count: usize, spread: f32, rng: &mut Pcg) -> Description {

@@ -79,7 +79,7 @@ fn kind_in_tree<K: Kind>(criterion: &mut Criterion) {
     let name = format!("{}/10000", K::NAME);
     let [list, tree] = [Structure::None, Structure::Tree]
         .map(|structure| compile_with(&description, &structure.into()).expect("a sound scene"));
-    let beams = Beams::of_scene(&tree, &mut rng);
+    let beams = Beams::anywhere(&mut rng);
     let expected = answers::<f32>(&name, &list, &beams.rays);
     agree::<f32>(&name, &tree, &beams.rays, &expected);
     widths(criterion, &name, &tree, &beams.rays, &expected);
