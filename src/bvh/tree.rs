@@ -19,7 +19,8 @@ pub struct Bvh {
     /// The most nodes on a way from the root to a block; at most [`MAX_DEPTH`](super::MAX_DEPTH).
     pub depth: usize,
     /// How large blocks are: the mean of their largest extents, or of the edges of squares of half their area where those
-    /// are less, weighted by area, without those of an eighth of the whole and more; an eighth of the whole's largest extent when there are no others.
+    /// are less, weighted by area, without those of an eighth of the whole and more; an eighth of the whole's largest
+    /// extent when there are no others.
     pub grain: f32,
 }
 

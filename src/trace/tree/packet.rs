@@ -26,7 +26,7 @@ struct Lines16 {
     far: [f32x16; 3],
     /// Which end of a box is the near one, where that is the same for all: 0 for the least.
     side: [usize; 3],
-    /// Whether it is not along any axis.
+    /// Whether along some axis it is not the same for all.
     mixed: bool,
 }
 
