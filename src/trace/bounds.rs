@@ -180,14 +180,6 @@ impl<L: Lanes> Extent<L> {
         }
     }
 
-    /// The least and the greatest components of all lanes.
-    #[inline(always)]
-    pub fn ends(&self) -> [glam::Vec3; 2] {
-        let Self { min, max } = self;
-        let least = glam::Vec3::new(min.x.least(), min.y.least(), min.z.least());
-        [least, glam::Vec3::new(max.x.greatest(), max.y.greatest(), max.z.greatest())]
-    }
-
     /// The box around all lanes.
     #[inline(always)]
     pub fn span(&self) -> Span {

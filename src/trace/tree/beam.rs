@@ -23,9 +23,7 @@
 //!   [`crate::trace::packet`]).
 
 use crate::bvh::Bvh;
-use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3};
-use crate::trace::bounds::Extent;
-use std::ops::Range;
+use crate::math::{LaneMask, Lanes};
 use wide::f32x8;
 
 /// 64 ε.
@@ -35,16 +33,17 @@ pub const PAD: f32 = 1.0 / (1 << 18) as f32;
 pub const TINY: f32 = 1e-18;
 
 /// Bounds of the active rays of a group.
+#[derive(Clone)]
 pub struct Beam {
     /// Per axis: the inverse that the faces where rays enter are multiplied by, and what is taken from that.
-    near: [(f32x8, f32x8); 3],
+    pub near: [(f32x8, f32x8); 3],
     /// The inverse and what is taken, for the faces where rays leave; for an axis with rays of both directions, where
     /// the others enter.
-    far: [(f32x8, f32x8); 3],
+    pub far: [(f32x8, f32x8); 3],
     /// Which end of a box is the near one: 0 for `min`.
-    side: [usize; 3],
+    pub side: [usize; 3],
     /// Axes with rays of both directions.
-    both: [bool; 3],
+    pub both: [bool; 3],
     /// Whether there is any such axis.
     pub mixed: bool,
     /// The axis of the directions' largest component, where the bounds tell.
@@ -52,37 +51,17 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// The least and greatest origins and directions of the rays of a range that are not done, if there are any; `t` as
-    /// the state has it.
+    /// What rounding grows with: how far a corner of the scene may lie from an origin, and that from zero.
     #[inline(always)]
-    pub fn ends(rays: &RayBatch, t: &[f32; BATCH], range: Range<usize>) -> Option<[[glam::Vec3; 2]; 2]> {
-        let (mut origins, mut directions) = (Extent::<f32x8>::empty(), Extent::<f32x8>::empty());
-        let mut any = false;
-        for at in range.step_by(8) {
-            let active = Lanes::ge(f32x8::load(&t[at..]), f32x8::zero());
-            if !LaneMask::any(active) {
-                continue;
-            }
-            any = true;
-            directions.include(Vec3::load(&rays.direction, at), active);
-            if !rays.common_origin {
-                origins.include(Vec3::load(&rays.origin, at), active);
-            }
-        }
-        if !any {
-            return None;
-        }
-        let directions = directions.ends();
-        let origins = if rays.common_origin { [rays.first_origin(); 2] } else { origins.ends() };
-        Some([origins, directions])
+    pub fn reach([o_min, o_max]: [glam::Vec3; 2], bvh: &Bvh) -> f32 {
+        let reach = (bvh.bounds.max - o_min).max(o_max - bvh.bounds.min).max_element().max(0.0);
+        reach + o_min.abs().max(o_max.abs()).max_element()
     }
 
     /// From the least and greatest origins and directions.
     #[inline(always)]
     pub fn new([o_min, o_max]: [glam::Vec3; 2], [d_min, d_max]: [glam::Vec3; 2], bvh: &Bvh) -> Self {
-        let reach = (bvh.bounds.max - o_min).max(o_max - bvh.bounds.min).max_element().max(0.0);
-        let reach = reach + o_min.abs().max(o_max.abs()).max_element();
-        let pad = PAD * reach;
+        let pad = PAD * Self::reach([o_min, o_max], bvh);
         let zero = (f32x8::ZERO, f32x8::ZERO);
         let mut beam = Self {
             near: [zero; 3],
@@ -138,7 +117,7 @@ impl Beam {
 /// The axis along which all directions between these are larger than along the others, as
 /// [`crate::geometry::triangle::Aim`] has it.
 #[inline(always)]
-fn major(min: glam::Vec3, max: glam::Vec3) -> Option<usize> {
+pub fn major(min: glam::Vec3, max: glam::Vec3) -> Option<usize> {
     let least = min.max(-max).max(glam::Vec3::ZERO);
     let most = max.max(-min);
     match () {

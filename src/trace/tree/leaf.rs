@@ -1,7 +1,8 @@
 //! The primitives of a block against a group, a packet or a ray: one text for all kinds, but for what triangles have of
 //! their own.
 
-use super::beam::Beam;
+use super::beams::RAYS;
+use super::behind::{Behind, Group, Groups};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
@@ -11,7 +12,6 @@ use crate::kinds::for_each_kind;
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use crate::trace::packet::{Packet, hits};
 use crate::trace::query::Query;
-use std::marker::PhantomData;
 use std::ops::Range;
 use wide::{f32x8, f32x16};
 
@@ -19,18 +19,6 @@ use wide::{f32x8, f32x16};
 pub trait Visitor {
     /// Tests primitives of a block of a kind; whether any hit was taken.
     fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool;
-}
-
-/// A group in packets of `L::WIDTH`, behind a beam.
-pub struct Group<'a, L, const MIXED: bool> {
-    /// Around the rays.
-    pub beam: &'a Beam,
-    /// The furthest that any of them looks.
-    pub limit: f32,
-    /// Which they are.
-    pub range: Range<usize>,
-    /// How wide they are tested.
-    pub lanes: PhantomData<L>,
 }
 
 /// Sixteen rays, each with its own interval.
@@ -69,16 +57,10 @@ impl Alone {
 
 /// A kind as the tree tests it.
 pub trait Leaf: Bounded {
-    /// A block against a group.
+    /// A block against groups.
     #[inline(always)]
-    fn group<Q: Query, L: Lanes, const MIXED: bool>(
-        walk: &mut Walk,
-        block: &Block<Self>,
-        variant: Self::Variant,
-        group: &Group<L, MIXED>,
-    ) -> bool {
-        let met = met(block, group);
-        met != 0 && packets::<Q, Self, _, L>(walk, Standard, block, variant, met, group.range.clone())
+    fn groups<Q: Query, B: Behind>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, groups: &B) -> bool {
+        self::groups::<Q, Self, _, B>(walk, Standard, block, variant, groups)
     }
 
     /// A block against sixteen rays.
@@ -107,10 +89,28 @@ pub trait Leaf: Bounded {
 impl<L: Lanes, const MIXED: bool> Visitor for Group<'_, L, MIXED> {
     #[inline(always)]
     fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
-        match kind.named() {
-            None => K::group::<Q, L, MIXED>(walk, block, variant, self),
-            Some(test) => packets_named::<Q, K, L>(walk, test, block, variant, met(block, self), self.range.clone()),
-        }
+        visit_groups::<Q, K, Self>(walk, kind, block, variant, self)
+    }
+}
+
+impl<L: Lanes, const MIXED: bool> Visitor for Groups<'_, L, MIXED> {
+    #[inline(always)]
+    fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
+        visit_groups::<Q, K, Self>(walk, kind, block, variant, self)
+    }
+}
+
+#[inline(always)]
+fn visit_groups<Q: Query, K: Leaf, B: Behind>(
+    walk: &mut Walk,
+    kind: &K,
+    block: &Block<K>,
+    variant: K::Variant,
+    groups: &B,
+) -> bool {
+    match kind.named() {
+        None => K::groups::<Q, B>(walk, block, variant, groups),
+        Some(test) => groups_named::<Q, K, B>(walk, test, block, variant, groups),
     }
 }
 
@@ -146,30 +146,53 @@ pub fn each(mut bits: u32, mut take: impl FnMut(usize)) {
 
 /// The lanes with a primitive.
 #[inline(always)]
-fn used<K: Primitives>(block: &Block<K>) -> u32 {
+pub fn used<K: Primitives>(block: &Block<K>) -> u32 {
     !LaneMask::bits(f32x8::id_mask(&block.id, NONE)) & 0xff
-}
-
-/// The lanes whose boxes a group's beam meets.
-#[inline(always)]
-pub fn met<K: Bounded, L, const MIXED: bool>(block: &Block<K>, group: &Group<L, MIXED>) -> u32 {
-    let [low, high] = K::extent(&columns(block));
-    let faces = |axis: usize, near: usize| {
-        let (low, high) = match axis {
-            0 => (low.x, high.x),
-            1 => (low.y, high.y),
-            _ => (low.z, high.z),
-        };
-        if near == 0 { [low, high] } else { [high, low] }
-    };
-    let (_, met) = group.beam.meets::<MIXED>(faces, f32x8::splat(group.limit));
-    met & used(block)
 }
 
 /// All primitives of a block, one a lane.
 #[inline(always)]
 pub fn columns<K: Primitives>(block: &Block<K>) -> K::Shape<f32x8> {
     K::map(&block.shape, |column: &[f32; BLOCK]| f32x8::from(*column))
+}
+
+/// Groups against the primitives whose boxes they meet.
+#[inline(always)]
+fn groups<Q: Query, K: Bounded, T: Test<K>, B: Behind>(
+    walk: &mut Walk,
+    test: T,
+    block: &Block<K>,
+    variant: K::Variant,
+    groups: &B,
+) -> bool {
+    let extent = K::extent(&columns(block));
+    let mut taken = false;
+    each(groups.met(&extent) & used(block), |lane| {
+        let lane = lane & (BLOCK - 1);
+        let shape = K::splat(&block.primitive(lane));
+        each(groups.groups(&extent, lane), |group| {
+            for at in (RAYS * group..RAYS * (group + 1)).step_by(B::Lanes::WIDTH) {
+                let packet = Packet::of(walk.rays, at);
+                let faces = Faces::new(packet.direction);
+                if let Some((t, inside)) = hits::<K, T, B::Lanes>(test, &shape, variant, &packet, &faces) {
+                    taken |= walk.state.take::<Q, B::Lanes>(at, t, inside, block.id[lane]);
+                }
+            }
+        });
+    });
+    taken
+}
+
+/// [`groups`] by a method that was asked for.
+#[inline(never)]
+fn groups_named<Q: Query, K: Bounded, B: Behind>(
+    walk: &mut Walk,
+    test: K::Named,
+    block: &Block<K>,
+    variant: K::Variant,
+    to: &B,
+) -> bool {
+    groups::<Q, K, _, B>(walk, test, block, variant, to)
 }
 
 /// Packets against the primitives of some lanes.

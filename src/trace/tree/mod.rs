@@ -1,11 +1,13 @@
-//! The two queries by way of the [`Bvh`](crate::bvh::Bvh): rays that run together descend as a group behind a beam that holds them all,
+//! The two queries by way of the [`Bvh`](crate::bvh::Bvh): rays that run together descend in groups behind beams that hold them,
 //! others as packets whose rays have each its own interval, and one at a time where few of a packet are left.
 //!
-//! A batch stays whole while its rays lie no farther apart, where they start and at the far side of the scene, than the
-//! tree's blocks are large; else it is cut into as many parts as bring it there, and what is down to [`batch::GROUP`] rays and still
-//! much wider becomes a packet. So a group meets few boxes that some of its rays miss. (Large packets by one bound for
-//! all: Boulos, Wald, Benthin 2006; single rays against eight boxes: Wald, Benthin, Boulos, *Getting Rid of Packets*, 2008;
-//! both: Benthin, Wald, Woop, Ernst, Mark, *Combining Single and Packet-Ray Tracing*, 2012.)
+//! A batch is sixteen groups of sixteen rays, with a beam around each. The groups descend together: a child is tested
+//! against the beam around all of them first, then against all sixteen at once ([`beams`]), and a group goes on only
+//! where its own beam meets the box. So a box costs two tests for the whole batch, and a primitive only the packets that
+//! come near it. A group whose rays lie too far apart for a beam becomes a packet; single rays are what is left of those.
+//! (One bound for many rays: Boulos, Wald, Benthin 2006; single rays against eight boxes: Wald, Benthin, Boulos, *Getting
+//! Rid of Packets*, 2008; packets that end as single rays: Benthin, Wald, Woop, Ernst, Mark, *Combining Single and
+//! Packet-Ray Tracing*, 2012.)
 //!
 //! Every box and beam on the way down is wider than anything the primitives' tests can find ([`beam`]), and of equal
 //! distances the lowest id is kept: so the answers for rays of finite numbers are those of testing everything, to the bit,
@@ -13,6 +15,8 @@
 
 mod batch;
 mod beam;
+mod beams;
+mod behind;
 mod group;
 mod leaf;
 mod line;

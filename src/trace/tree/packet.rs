@@ -12,8 +12,6 @@ use crate::math::{BATCH, LaneMask, Lanes, map3};
 use crate::trace::query::Query;
 use wide::f32x16;
 
-/// Rays of a packet.
-pub const PACKET: usize = 16;
 /// Cache lines of the next batch that are fetched at every step of the descent.
 const LINES: usize = 2;
 /// As many go on one by one.

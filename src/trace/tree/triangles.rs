@@ -1,11 +1,13 @@
 //! Triangles of a block: what the test needs of the directions is known, and corners come in the order of the axes after
 //! the directions' largest.
 
-use super::leaf::{Alone, Group, Leaf, Sixteen, columns, each, met, take_eight};
+use super::beams::RAYS;
+use super::behind::Behind;
+use super::leaf::{Alone, Leaf, Sixteen, columns, each, take_eight, used};
 use super::walk::Walk;
 use crate::bvh::Block;
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
-use crate::geometry::{Sides, Triangles};
+use crate::geometry::{Bounded, Sides, Triangles};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 use crate::trace::query::Query;
 use wide::{f32x8, f32x16};
@@ -17,39 +19,40 @@ const LINES: usize = 8;
 
 impl Leaf for Triangles {
     #[inline(always)]
-    fn group<Q: Query, L: Lanes, const MIXED: bool>(
-        walk: &mut Walk,
-        block: &Block<Self>,
-        sides: Sides,
-        group: &Group<L, MIXED>,
-    ) -> bool {
-        let mut left = met(block, group);
+    fn groups<Q: Query, B: Behind>(walk: &mut Walk, block: &Block<Self>, sides: Sides, groups: &B) -> bool {
+        let extent = Self::extent(&columns(block));
         let mut taken = false;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            let columns = &block.shape.corners;
+        let corners = &block.shape.corners;
+        each(groups.met(&extent) & used(block), |lane| {
+            let lane = lane & 7;
             walk.prefetch.step(LINES);
-            for at in group.range.clone().step_by(L::WIDTH) {
-                let origin = walk.rays.origins::<L>(at);
-                let inside = match group.beam.major {
-                    Some(major) => {
-                        let origin = origin.ordered(major);
-                        let axis = |k: usize, i: usize| L::splat(columns[k][(major + 1 + i) % 3][lane]) - origin[i];
-                        let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)));
-                        covers_ordered(&seen, walk.state.shear(at))
-                    }
-                    None => {
-                        let aim = Aim::new(Vec3::load(&walk.rays.direction, at));
-                        let corners = block.primitive(lane).corners();
-                        covers(&map3(corners, |c| Vec3::splat(c.into()) - origin), &aim)
-                    }
-                };
-                let Some(inside) = inside else { continue };
-                let flat = Flat::of(block.primitive(lane).corners(), origin);
-                taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
-            }
-        }
+            let primitive = block.primitive(lane).corners();
+            let from = |origin: Vec3<B::Lanes>, major: usize| {
+                let origin = origin.ordered(major);
+                let axis = |k: usize, i: usize| B::Lanes::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
+                map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)))
+            };
+            // Once for all where all start at one point.
+            let first = walk.rays.first_origin();
+            let fixed =
+                groups.beam().major.filter(|_| walk.rays.common_origin).map(|major| from(Vec3::splat(first), major));
+            each(groups.groups(&extent, lane), |group| {
+                for at in (RAYS * group..RAYS * (group + 1)).step_by(B::Lanes::WIDTH) {
+                    let origin = walk.rays.origins::<B::Lanes>(at);
+                    let inside = match (&fixed, groups.beam().major) {
+                        (Some(seen), _) => covers_ordered(seen, walk.state.shear(at)),
+                        (None, Some(major)) => covers_ordered(&from(origin, major), walk.state.shear(at)),
+                        (None, None) => {
+                            let aim = Aim::new(Vec3::load(&walk.rays.direction, at));
+                            covers(&map3(primitive, |c| Vec3::splat(c.into()) - origin), &aim)
+                        }
+                    };
+                    let Some(inside) = inside else { continue };
+                    let flat = Flat::of(primitive, origin);
+                    taken |= take::<Q, B::Lanes>(walk, at, &flat, sides, inside, block.id[lane]);
+                }
+            });
+        });
         taken
     }
 

@@ -1,0 +1,212 @@
+//! Sixteen groups of sixteen rays: a beam around each, a beam a lane.
+
+use super::beam::{Beam, PAD, TINY};
+use super::state::State;
+use crate::bvh::{Bvh, Node};
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, map3};
+use bytemuck::cast;
+use glam::Vec3;
+use wide::{f32x8, f32x16};
+
+/// Rays of a beam.
+pub const RAYS: usize = BATCH / 16;
+/// How far apart a beam's directions may be along any axis.
+const WIDEST: f32 = 0.5;
+/// How far apart they may be at the far side of the scene, in sizes of the tree's blocks; first for a common origin, from
+/// where rays spread before they meet anything.
+const FAR: [f32; 2] = [3.0, 20.0];
+/// How far apart the origins may be.
+const NEAR: f32 = 0.75;
+
+/// The least and the greatest of what each beam's rays have that are not done, by axis.
+pub struct Ends {
+    origins: [[f32x16; 3]; 2],
+    directions: [[f32x16; 3]; 2],
+    /// How far each beam's rays look.
+    limits: f32x16,
+    /// Beams with a ray that looks.
+    active: u32,
+}
+
+impl Ends {
+    /// Of a batch, of whose rays the state has how far they look.
+    #[inline(never)]
+    pub fn of(rays: &RayBatch, state: &State) -> Self {
+        let count = rays.len.div_ceil(RAYS);
+        let none = LaneMask::from_bits(0);
+        let looks: [f32x16; 16] = std::array::from_fn(|p| match p < count {
+            true => Lanes::ge(f32x16::load(&state.t[RAYS * p..]), f32x16::ZERO),
+            false => none,
+        });
+        let full = looks.iter().all(|&looks| LaneMask::all(looks));
+        let load = |column: &[f32; BATCH], p: usize, or: f32| {
+            let value = f32x16::load(&column[RAYS * p..]);
+            if full { value } else { Lanes::select(value, looks[p], f32x16::splat(or)) }
+        };
+        let least = |column: &[f32; BATCH]| fold(|p| load(column, p, f32::INFINITY), Lanes::min);
+        let greatest = |column: &[f32; BATCH]| fold(|p| load(column, p, f32::NEG_INFINITY), Lanes::max);
+        let both = |columns: &[[f32; BATCH]; 3]| {
+            [map3([0, 1, 2], |axis| least(&columns[axis])), map3([0, 1, 2], |axis| greatest(&columns[axis]))]
+        };
+        let origins = match rays.common_origin {
+            true => [rays.first_origin().to_array().map(f32x16::splat); 2],
+            false => both(&rays.origin),
+        };
+        let limits = greatest(&state.t);
+        let active = LaneMask::bits(Lanes::ge(limits, f32x16::ZERO));
+        Self { origins, directions: both(&rays.direction), limits, active }
+    }
+
+    /// The beams that are narrow enough for their rays to go on together, and the others; only of those with rays.
+    pub fn narrow(&self, bvh: &Bvh, common_origin: bool) -> [u32; 2] {
+        let greatest = |[x, y, z]: [f32x16; 3]| Lanes::max(x, Lanes::max(y, z));
+        let apart = |[low, high]: &[[f32x16; 3]; 2]| greatest(map3([0, 1, 2], |axis| high[axis] - low[axis]));
+        let (min, max) = (bvh.bounds.min.to_array(), bvh.bounds.max.to_array());
+        let [from, to] = &self.origins;
+        let away = greatest(map3([0, 1, 2], |axis| {
+            Lanes::max(f32x16::splat(max[axis]) - from[axis], to[axis] - f32x16::splat(min[axis]))
+        }));
+        let size = f32x16::splat((bvh.bounds.max - bvh.bounds.min).max_element());
+        let spread = apart(&self.directions);
+        let far = spread * Lanes::max(size, away);
+        let near = apart(&self.origins);
+        let grain = |times: f32| f32x16::splat(times * bvh.grain);
+        // NaN fails these.
+        let narrow = Lanes::lt(spread, f32x16::splat(WIDEST))
+            & Lanes::lt(far, grain(FAR[usize::from(!common_origin)]))
+            & Lanes::le(near, grain(NEAR));
+        let narrow = LaneMask::bits(narrow);
+        [self.active & narrow, self.active & !narrow]
+    }
+}
+
+/// Lane p is what remains of the sixteen numbers of `column(p)`.
+#[inline(always)]
+fn fold(column: impl Fn(usize) -> f32x16, op: impl Fn(f32x8, f32x8) -> f32x8) -> f32x16 {
+    let half = |first: usize| {
+        let rows: [f32x8; 8] = std::array::from_fn(|p| {
+            let [a, b]: [f32x8; 2] = cast(column(first + p));
+            op(a, b)
+        });
+        let [a, b, c, d, e, f, g, h] = f32x8::transpose(rows);
+        op(op(op(a, b), op(c, d)), op(op(e, f), op(g, h)))
+    };
+    cast([half(0), half(8)])
+}
+
+/// The beams as boxes are tested with them; the numbers are those of [`Beam`], a beam a lane.
+#[derive(Clone)]
+pub struct Beams {
+    near: [(f32x16, f32x16); 3],
+    far: [(f32x16, f32x16); 3],
+    /// Beams that run along an axis' negative side, and beams of whose rays some do.
+    behind: [f32x16; 3],
+    both: [f32x16; 3],
+    side: [usize; 3],
+    /// Whether along some axis not all run to the same side.
+    pub mixed: bool,
+    /// Around all of them.
+    pub whole: Beam,
+    /// How far each looks, −∞ for beams that are not there.
+    pub limits: f32x16,
+}
+
+impl Beams {
+    /// The beams whose bits are set.
+    pub fn new(ends: &Ends, lanes: u32, bvh: &Bvh, common_origin: bool) -> Self {
+        let Ends { origins: [o_min, o_max], directions: [d_min, d_max], .. } = ends;
+        let there: f32x16 = LaneMask::from_bits(lanes);
+        let least = |v: &[f32x16; 3]| {
+            Vec3::from_array(map3(*v, |v| Lanes::select(v, there, f32x16::splat(f32::INFINITY)).least()))
+        };
+        let greatest = |v: &[f32x16; 3]| {
+            Vec3::from_array(map3(*v, |v| Lanes::select(v, there, f32x16::splat(f32::NEG_INFINITY)).greatest()))
+        };
+        let origins = match common_origin {
+            true => [Vec3::from_array(map3(*o_min, |v| v.as_array()[0])); 2],
+            false => [least(o_min), greatest(o_max)],
+        };
+        let directions = [least(d_min), greatest(d_max)];
+        let whole = Beam::new(origins, directions, bvh);
+        let pad = f32x16::splat(PAD * Beam::reach(origins, bvh));
+        let zero = f32x16::ZERO;
+        let mut beams = Self {
+            near: [(zero, zero); 3],
+            far: [(zero, zero); 3],
+            behind: [zero; 3],
+            both: [zero; 3],
+            side: [0; 3],
+            mixed: false,
+            whole,
+            limits: Lanes::select(ends.limits, there, f32x16::splat(f32::NEG_INFINITY)),
+        };
+        for axis in 0..3 {
+            let (least, most) = (d_min[axis], d_max[axis]);
+            let (above, below) = (Lanes::ge(least, f32x16::splat(TINY)), Lanes::le(most, f32x16::splat(-TINY)));
+            let both = !(above | below);
+            // Across zero, the inverses of the ends bound those of all.
+            let r = f32x16::ONE / Lanes::select(Lanes::max(most, f32x16::splat(TINY)), both, most);
+            let q = f32x16::ONE / Lanes::select(Lanes::min(least, f32x16::splat(-TINY)), both, least);
+            let (low, high) = ((r, (o_max[axis] + pad) * r), (q, (o_min[axis] - pad) * q));
+            let pick = |a: f32x16, b: f32x16| Lanes::select(a, below, b);
+            beams.near[axis] = (pick(high.0, low.0), pick(high.1, low.1));
+            beams.far[axis] = (pick(low.0, high.0), pick(low.1, high.1));
+            (beams.behind[axis], beams.both[axis]) = (below, both);
+            let below = LaneMask::bits(below) & lanes;
+            beams.side[axis] = usize::from(below != 0);
+            beams.mixed |= LaneMask::bits(both) & lanes != 0 || (below != 0 && below != lanes);
+        }
+        beams
+    }
+
+    /// One of them alone.
+    #[inline(always)]
+    pub fn one(&self, lane: usize) -> Beam {
+        let pick = |v: &f32x16| f32x8::splat(v.as_array()[lane & 15]);
+        let pair = |(a, b): &(f32x16, f32x16)| (pick(a), pick(b));
+        let bit = |mask: &f32x16| LaneMask::bits(*mask) >> lane & 1 != 0;
+        let both = [bit(&self.both[0]), bit(&self.both[1]), bit(&self.both[2])];
+        Beam {
+            near: [pair(&self.near[0]), pair(&self.near[1]), pair(&self.near[2])],
+            far: [pair(&self.far[0]), pair(&self.far[1]), pair(&self.far[2])],
+            side: [0, 1, 2].map(|axis| usize::from(bit(&self.behind[axis]))),
+            both,
+            mixed: both.contains(&true),
+            major: self.whole.major,
+        }
+    }
+
+    /// The beams that meet a box no later than at `limits`; `faces` are its two coordinates along an axis, and `MIXED` may be
+    /// false where [`Beams::mixed`] is.
+    #[inline(always)]
+    pub fn meets<const MIXED: bool>(&self, faces: impl Fn(usize) -> [f32; 2], limits: f32x16) -> u32 {
+        let mut enter = f32x16::ZERO;
+        let mut exit = limits;
+        for axis in 0..3 {
+            let ((r, a), (q, b)) = (self.near[axis], self.far[axis]);
+            let faces = faces(axis);
+            if MIXED {
+                let [low, high] = faces.map(f32x16::splat);
+                let (near, far) =
+                    (Lanes::select(high, self.behind[axis], low), Lanes::select(low, self.behind[axis], high));
+                let (near, far) = (near.mul_sub(r, a), far.mul_sub(q, b));
+                let both = self.both[axis];
+                enter = Lanes::max(near, enter);
+                enter = Lanes::max(Lanes::select(far, both, enter), enter);
+                exit = Lanes::min(Lanes::select(exit, both, far), exit);
+            } else {
+                let side = self.side[axis] & 1;
+                // What is NaN (∞ − ∞) is passed over.
+                enter = Lanes::max(f32x16::splat(faces[side]).mul_sub(r, a), enter);
+                exit = Lanes::min(f32x16::splat(faces[side ^ 1]).mul_sub(q, b), exit);
+            }
+        }
+        LaneMask::bits(Lanes::le(enter, exit))
+    }
+
+    /// [`Beams::meets`] for a node's child.
+    #[inline(always)]
+    pub fn meets_child<const MIXED: bool>(&self, node: &Node, child: usize, limits: f32x16) -> u32 {
+        self.meets::<MIXED>(|axis| [node.end(axis, 0, child), node.end(axis, 1, child)], limits)
+    }
+}
