@@ -94,3 +94,8 @@ pub mod scene;
 pub mod shade;
 pub mod trace;
 pub mod viewer;
+
+/// The examples of the library's page, which are compiled and run as those of this documentation are.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/library.md")]
+struct LibraryPage;

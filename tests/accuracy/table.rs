@@ -153,7 +153,7 @@ fn hard_cases() {
     check(60, false);
 }
 
-/// The table of the README.
+/// The table of `docs/accuracy.md`.
 #[test]
 #[ignore = "takes minutes; for a release build"]
 fn hard_cases_in_full() {

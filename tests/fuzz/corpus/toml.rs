@@ -21,7 +21,8 @@ fn seeds() -> Vec<Vec<u8>> {
         if short.len() < text.len() { short + "]\n" } else { short }
     };
     let mut texts: Vec<String> = builtins().iter().map(|b| short(b.source)).collect();
-    let examples = include_str!("../../../README.md").split("```toml\n").skip(1);
+    let pages = [include_str!("../../../README.md"), include_str!("../../../docs/scene-format.md")];
+    let examples = pages.into_iter().flat_map(|page| page.split("```toml\n").skip(1));
     texts.extend(examples.map(|rest| rest.split("```").next().unwrap_or_default().to_owned()));
     texts.extend([KEYS.to_owned(), KINDS.to_owned()]);
     texts.into_iter().map(String::into_bytes).collect()
