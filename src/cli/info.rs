@@ -4,6 +4,7 @@ use super::args::{DEFAULT_SCENE, Methods, count};
 use super::failure::Failure;
 use super::plan::PlanText;
 use super::{input, print};
+use raypacket::math::{isa, slower_than_cpu};
 use raypacket::scene::{Description, KINDS, Scene, Sky, one_line};
 use std::fmt;
 
@@ -46,6 +47,7 @@ impl fmt::Display for Summary<'_> {
             "camera      eye {}, look at {}, up {}, fov {} degrees",
             camera.eye, camera.look_at, camera.up, camera.fov
         )?;
+        writeln!(f, "build       {}, {}", isa(), slower_than_cpu().unwrap_or("as good as the CPU has".to_owned()))?;
         f.write_str("plan")?;
         for line in PlanText(&compiled.plan).to_string().lines() {
             write!(f, "\n  {line}")?;

@@ -19,11 +19,13 @@ mod verify;
 mod view;
 
 use clap::{Parser, Subcommand};
+use raypacket::math::{isa, slower_than_cpu};
 use std::process::ExitCode;
+use std::sync::LazyLock;
 
 /// A CPU ray tracer that traces SIMD packets and checks its answers against a scalar reference
 #[derive(Parser)]
-#[command(name = "raypacket", version, args_conflicts_with_subcommands = true)]
+#[command(name = "raypacket", version = version(), args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -48,6 +50,16 @@ enum Command {
     Info(info::Args),
     /// List the built-in scenes
     Scenes,
+}
+
+/// The version, what it was built from and for, and what a build for this CPU would be worth.
+fn version() -> &'static str {
+    static VERSION: LazyLock<String> = LazyLock::new(|| {
+        let commit = option_env!("RAYPACKET_COMMIT").unwrap_or("unknown");
+        let advice = slower_than_cpu().map_or(String::new(), |advice| format!("\n{advice}"));
+        format!("{} (commit {commit}, {}){advice}", env!("CARGO_PKG_VERSION"), isa())
+    });
+    &VERSION
 }
 
 /// Parses the arguments and does what they say. Wrong usage ends the program here with status 2.

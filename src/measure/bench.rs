@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::rays::{self, RayFileError};
 use super::streams::Streams;
-use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa};
+use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa, slower_than_cpu};
 use crate::render::{Camera, Kernel, render_display, with_lanes};
 use crate::scene::{Description, Scene};
 use crate::trace::{Scratch, intersect_stream, occluded_stream};
@@ -275,6 +275,9 @@ impl fmt::Display for Report {
         let valid = if self.valid { "answers agree" } else { "ANSWERS DISAGREE" };
         let threads = if self.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", self.threads) };
         writeln!(f, "{}  {w}×{h}  {threads}  {}  {valid}", self.scene, self.isa)?;
+        if let Some(advice) = slower_than_cpu() {
+            writeln!(f, "{advice}")?;
+        }
         if let Some(Build { ms, bytes }) = self.build {
             writeln!(f, "tree: built in {ms:.2} ms, {bytes} bytes")?;
         }

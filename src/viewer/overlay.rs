@@ -1,6 +1,7 @@
 //! The window's text: speed, kernel, threads, keys, messages.
 
 use super::{draw::Picture, input::HELP, text};
+use crate::math::{cpu_isa, isa};
 use crate::render::{Counts, Kernel};
 use std::time::Duration;
 
@@ -104,7 +105,10 @@ impl Overlay<'_> {
 
     /// Draws everything over a picture.
     pub fn draw(&self, picture: &mut Picture) {
-        let lines = self.lines();
+        let mut lines = self.lines();
+        if isa() != cpu_isa() {
+            lines.push(format!("built for {}, CPU has {}", isa(), cpu_isa()));
+        }
         text::panel(picture, 0, 0, &lines, TEXT);
         let height = text::panel_size(&lines).1;
         if self.help {

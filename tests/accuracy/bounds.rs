@@ -19,11 +19,11 @@ use crate::common::ROUNDOFF;
 ///   likewise 12 and 8;
 /// - disc, 10 ε (|o − center| + radius) + 3 ε t, where D = |o − center| + radius.
 pub fn k(shape: &Shape) -> f64 {
-    let (map3, five) = (3f64.sqrt(), 5f64.sqrt());
+    let (three, five) = (3f64.sqrt(), 5f64.sqrt());
     match shape {
-        Shape::Plane(_) => 8.0 * map3,
+        Shape::Plane(_) => 8.0 * three,
         Shape::Sphere(_) | Shape::Fractal(_) => 5.0,
-        Shape::Triangle(_) => 32.0 * map3,
+        Shape::Triangle(_) => 32.0 * three,
         Shape::Quad(it) => 24.0 / sine(it.u.as_dvec3(), it.v.as_dvec3()),
         Shape::Cuboid(it) if it.rotation == glam::Vec3::ZERO => 3.0,
         Shape::Cuboid(_) => 14.0,

@@ -7,7 +7,7 @@ use crate::math::{LaneMask, Lanes, MAX_LANES, Vec3};
 ///
 /// Jochen Schwarze, *Cubic and Quartic Roots* (Graphics Gems, 1990, pp. 404–407): t = y − a₃ / 4 makes the quartic
 /// y⁴ + p y² + q y + r; with a root z of the resolvent z³ − ½ p z² − r z + ½ p r − ⅛ q², by Cardano's formula or, where
-/// there are map3, by Viète's cosine, it is the product of the quadratics y² ± v y + z ∓ u with u² = z² − r and
+/// there are three, by Viète's cosine, it is the product of the quadratics y² ± v y + z ∓ u with u² = z² − r and
 /// v² = 2 z − p. Deviations: in `f32`; always the greatest z; squares that rounding brings below zero count as zero; no
 /// epsilon decides what else is zero.
 ///

@@ -339,7 +339,7 @@ impl Groups {
     }
 }
 
-/// x y z, and perhaps a weight or a colour (map3, or four with alpha), of which only the weight counts.
+/// x y z, and perhaps a weight or a colour (three, or four with alpha), of which only the weight counts.
 fn position<'w>(words: impl Iterator<Item = &'w str>) -> Result<Vec3, String> {
     let position = match numbers::<4>(words)? {
         ([x, y, z, _], 3 | 6 | 7) => Vec3::new(x, y, z),

@@ -210,3 +210,88 @@ impl Beams {
         self.meets::<MIXED>(|axis| [node.end(axis, 0, child), node.end(axis, 1, child)], limits)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wide::f32x8;
+
+    /// Rays in sixteen different ways, some of them inactive.
+    fn rays(common_origin: bool, len: usize) -> RayBatch {
+        let mut rays = RayBatch::default();
+        for i in 0..len {
+            let p = (i / RAYS) as f32;
+            let (x, y) = ((i % 4) as f32 * 0.01, (i / 4 % 4) as f32 * 0.01);
+            let origin = if common_origin { Vec3::ONE } else { Vec3::new(x, p, y) };
+            let direction = Vec3::new(x + 0.1 * p - 0.8, y - 0.02, if p < 9.0 { 1.0 } else { -1.0 }).normalize();
+            rays.push(origin, direction, 0.0, if i % 7 == 3 { -1.0 } else { 10.0 + p });
+        }
+        rays
+    }
+
+    fn state(rays: &RayBatch) -> State {
+        let mut state = State::default();
+        state.start::<f32x8>(rays, false);
+        state
+    }
+
+    #[test]
+    fn ends_are_those_of_the_active_rays() {
+        for (common_origin, len) in [(true, 256), (false, 256), (false, 100), (true, 1)] {
+            let rays = rays(common_origin, len);
+            let ends = Ends::of(&rays, &state(&rays));
+            for p in 0..16 {
+                let active = || (RAYS * p..(RAYS * (p + 1)).min(len)).filter(|&i| rays.t_max[i] >= 0.0);
+                assert_eq!(ends.active >> p & 1 != 0, active().count() > 0);
+                if active().count() == 0 {
+                    continue;
+                }
+                for axis in 0..3 {
+                    let column = |i: usize| rays.direction[axis][i];
+                    let least = active().map(column).fold(f32::INFINITY, f32::min);
+                    let greatest = active().map(column).fold(f32::NEG_INFINITY, f32::max);
+                    assert_eq!(ends.directions[0][axis].to_array()[p], least, "{len} {p} {axis}");
+                    assert_eq!(ends.directions[1][axis].to_array()[p], greatest, "{len} {p} {axis}");
+                }
+                assert_eq!(ends.limits.to_array()[p], 10.0 + p as f32);
+            }
+        }
+    }
+
+    /// A box that a ray passes through is met by the ray's beam, and a box that no ray comes near by none.
+    #[test]
+    fn a_beam_meets_what_its_rays_meet() {
+        let bounds = crate::bvh::Aabb { min: Vec3::splat(-30.0), max: Vec3::splat(30.0) };
+        for common_origin in [true, false] {
+            let rays = rays(common_origin, 256);
+            let bvh = Bvh {
+                bounds,
+                grain: 10.0,
+                nodes: Vec::new(),
+                blocks: Default::default(),
+                root: crate::bvh::Child::EMPTY,
+                depth: 0,
+            };
+            let ends = Ends::of(&rays, &state(&rays));
+            let [narrow, wide] = ends.narrow(&bvh, common_origin);
+            assert_eq!((narrow, wide), (0xffff, 0));
+            let beams = Beams::new(&ends, narrow, &bvh, common_origin);
+            assert!(beams.mixed, "the case is there");
+            let mut missed = 0;
+            for i in (0..256).filter(|&i| rays.t_max[i] >= 0.0) {
+                let origin =
+                    if common_origin { Vec3::ONE } else { Vec3::from_array([0, 1, 2].map(|a| rays.origin[a][i])) };
+                let direction = Vec3::from_array([0, 1, 2].map(|a| rays.direction[a][i]));
+                for t in [0.5, 4.0, 9.0] {
+                    let point = origin + direction * t;
+                    let met = beams.meets::<true>(|axis| [point[axis] - 1e-3, point[axis] + 1e-3], beams.limits);
+                    assert!(met >> (i / RAYS) & 1 != 0, "ray {i} at {t}");
+                    missed += (!met & 0xffff).count_ones();
+                }
+            }
+            assert!(missed > 1_000, "{missed}");
+            let beyond = beams.meets::<true>(|axis| [if axis == 2 { 29.0 } else { -40.0 }, 40.0], beams.limits);
+            assert_eq!(beyond, 0, "farther than the rays look");
+        }
+    }
+}

@@ -59,7 +59,7 @@ impl Outline for Fractal {
     }
 }
 
-/// The iterations in which a cell's row (column, layer) is the middle one of map3, as bits. Those cells are empty
+/// The iterations in which a cell's row (column, layer) is the middle one of three, as bits. Those cells are empty
 /// in which an iteration finds two of the three so.
 fn middles(index: usize, level: u32) -> usize {
     (0..level).filter(|&digit| index / 3usize.pow(digit) % 3 == 1).map(|digit| 1 << digit).sum()
