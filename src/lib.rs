@@ -87,12 +87,14 @@ pub mod files;
 pub mod geometry;
 mod kinds;
 pub mod math;
+#[cfg(feature = "lab")]
 pub mod measure;
 pub mod reference;
 pub mod render;
 pub mod scene;
 pub mod shade;
 pub mod trace;
+#[cfg(feature = "viewer")]
 pub mod viewer;
 
 /// The examples of the library's page, which are compiled and run as those of this documentation are.

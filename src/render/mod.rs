@@ -12,5 +12,6 @@ pub use camera::Camera;
 pub(crate) use film::Tone;
 pub use film::{Film, tone_map};
 pub use kernel::Kernel;
+#[cfg(feature = "lab")]
 pub(crate) use kernel::with_lanes;
 pub use tile::{PrimaryHits, TILE, primary_hits, record, render, render_display, render_display_while};

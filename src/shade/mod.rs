@@ -19,6 +19,7 @@ mod wave;
 mod whitted;
 
 pub use path::{Segment, SegmentKind, path};
+#[cfg(feature = "lab")]
 pub(crate) use spawn::Offsets;
 pub(crate) use surface::facing_normal;
 pub use wave::Observer;

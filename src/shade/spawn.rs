@@ -56,6 +56,7 @@ impl Offsets {
     }
 
     /// So many world units.
+    #[cfg(feature = "lab")]
     pub fn fixed(epsilon: f32) -> Self {
         Self { reach: 0.0, coordinate: 0.0, length: 0.0, fixed: epsilon, steps: None }
     }
