@@ -82,6 +82,8 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub use {glam, wide};
+
 pub mod bvh;
 pub mod files;
 pub mod geometry;
