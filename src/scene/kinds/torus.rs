@@ -61,7 +61,7 @@ impl Kind for Torus {
     const NAME: KindName = KindName {
         one: "torus",
         many: "tori",
-        method: "method `monotone_newton`, which loses no root, single or double, near or far",
+        method: "method `monotone_newton`, which loses no root that stands clear of rounding",
     };
     type Elements = Array<TorusFile>;
     type Storage = Tori;
