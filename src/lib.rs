@@ -67,9 +67,10 @@
 //! - **At equal distance the lowest primitive id wins.** Ids count through the kinds in the order of
 //!   [`scene::Scene`]'s fields: planes, spheres, triangles, quads and so on.
 //! - **The tree loses no hit.** Where the plan has one ([`bvh`]), answers for rays of finite numbers, none beyond
-//!   2⁶⁸, are those of testing everything, to the bit: its boxes are wider than what rounding can do, and hits count only within a box of
-//!   the primitive's own, but for spheres, cylinders and cones, whose tests err like a slightly moved ray. On every width
-//!   a beam or a ray is tested against eight boxes at a time, or a box against sixteen rays.
+//!   2⁶⁸, are those of testing everything, to the bit: its boxes are wider than what rounding can do, and hits count
+//!   only within a box of the primitive's own, but for spheres, cylinders and cones, whose tests err like a slightly moved ray. On every width
+//!   a beam or a ray is tested against eight boxes at a time, or a box against sixteen beams or
+//!   rays.
 //! - **A kind of primitive is stated once**: a row in `src/kinds.rs`, and a file in each of `scene/kinds`, `geometry`,
 //!   `viewer/outline`, `reference` and `measure/oracle`. Where a part is left out, it does not compile. Every kind has
 //!   blocks of eight in the tree: one ray is tested against eight primitives, or a packet against each, by one text.

@@ -29,7 +29,8 @@ pub(crate) use query::{Intersect, Nearest, Occluded, Query};
 /// The nearest hit of every active ray, in packets of `L::WIDTH`.
 ///
 /// Of hits at equal distance the lowest id wins. The answer for a ray depends neither on the width nor on the other
-/// rays of the batch, unless it has NaN or infinite components or starts beyond 2⁶⁸. `hits` of inactive rays are left as they were.
+/// rays of the batch, unless it has NaN or infinite components or starts beyond 2⁶⁸. `hits` of inactive rays are left as
+/// they were.
 pub fn intersect<L: Lanes>(scene: &Scene, rays: &RayBatch, hits: &mut HitBatch, scratch: &mut Scratch) {
     intersect_before::<L>(scene, rays, Prefetch::NOTHING, hits, scratch);
 }

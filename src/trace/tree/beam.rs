@@ -33,7 +33,6 @@ pub const PAD: f32 = 1.0 / (1 << 18) as f32;
 pub const TINY: f32 = 1e-18;
 
 /// Bounds of the active rays of a group.
-#[derive(Clone)]
 pub struct Beam {
     /// Per axis: the inverse that the faces where rays enter are multiplied by, and what is taken from that.
     pub near: [(f32x8, f32x8); 3],
@@ -117,7 +116,7 @@ impl Beam {
 /// The axis along which all directions between these are larger than along the others, as
 /// [`crate::geometry::triangle::Aim`] has it.
 #[inline(always)]
-pub fn major(min: glam::Vec3, max: glam::Vec3) -> Option<usize> {
+fn major(min: glam::Vec3, max: glam::Vec3) -> Option<usize> {
     let least = min.max(-max).max(glam::Vec3::ZERO);
     let most = max.max(-min);
     match () {

@@ -95,7 +95,6 @@ fn fold(column: impl Fn(usize) -> f32x16, op: impl Fn(f32x8, f32x8) -> f32x8) ->
 }
 
 /// The beams as boxes are tested with them; the numbers are those of [`Beam`], a beam a lane.
-#[derive(Clone)]
 pub struct Beams {
     near: [(f32x16, f32x16); 3],
     far: [(f32x16, f32x16); 3],
