@@ -286,7 +286,7 @@ pub fn record(
     kernel: Kernel,
     [width, height]: [usize; 2],
     stride: usize,
-    observer: &mut impl Observer,
+    observer: &mut dyn Observer,
 ) -> Counts {
     let grid = Grid::new(camera, width, height);
     let mut work = Box::<Workspace>::default();

@@ -58,7 +58,6 @@ impl Lighting {
     }
 
     /// Adds light `light`; returns the number of shadow rays.
-    #[inline(always)]
     pub fn add<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
@@ -66,7 +65,7 @@ impl Lighting {
         wave: &Wave,
         surfaces: &Surfaces,
         scratch: &mut Scratch,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> u64 {
         let (count, bounds) = match scene.plan.shadows[light] {
             ShadowStart::Light => self.fire_from_light::<L, C>(scene, light, wave, surfaces),
@@ -80,7 +79,7 @@ impl Lighting {
     }
 
     /// Makes the shadow rays, one for every hit that faces the light, from the light.
-    #[inline(always)]
+    #[inline(never)]
     fn fire_from_light<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
@@ -112,7 +111,7 @@ impl Lighting {
     }
 
     /// Makes the same rays, from the points.
-    #[inline(always)]
+    #[inline(never)]
     fn fire_from_points<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
@@ -185,7 +184,7 @@ impl Lighting {
     }
 
     /// Traces the shadow rays, and adds what the light does where nothing blocks them.
-    #[inline(always)]
+    #[inline(never)]
     fn collect<L: Lanes, C: Contents>(
         &mut self,
         scene: &Scene,
@@ -197,7 +196,6 @@ impl Lighting {
     ) {
         let Self { rays, irradiance, highlight, arriving, cosine } = self;
         let power = Vec3::<L>::splat(light.power);
-        // Compiled in place, or it would load what it captures for every packet.
         trace::<Occluded, L, C>(
             scene,
             rays,

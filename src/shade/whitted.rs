@@ -92,7 +92,7 @@ impl Workspace {
 /// `work.radiance`.
 ///
 /// A workspace goes with one scene.
-pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
+pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut dyn Observer) -> Counts {
     if scene.plan.refracts {
         work.start_inside(scene);
     }
@@ -100,7 +100,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
 }
 
 /// [`trace_waves`] for a scene of such contents.
-fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
+fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut dyn Observer) -> Counts {
     const { assert!(L::WIDTH <= KERNEL_LANES, "room for a packet's lanes is as wide as the widest kernel") };
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, queue, surfaces, lighting, scratch, .. } = work;
@@ -110,7 +110,6 @@ fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: 
     observer.primary(&primary.rays);
     let mut stage = Stage { scene, radiance, queue, surfaces, lighting, scratch };
     let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
-    // All waves go through one call, which is compiled in place.
     loop {
         counts.shadow += stage.shade::<L, C>(queued.as_deref().unwrap_or(primary), depth, observer);
         if let Some(wave) = queued.take() {
@@ -143,8 +142,7 @@ struct Stage<'a> {
 
 impl Stage<'_> {
     /// Traces and shades a wave, and queues the rays that go on from there; the number of shadow rays.
-    #[inline(always)]
-    fn shade<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
+    fn shade<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32, observer: &mut dyn Observer) -> u64 {
         let scene = self.scene;
         if !self.arrive::<L, C>(wave, depth) {
             return 0;
@@ -159,7 +157,7 @@ impl Stage<'_> {
     }
 
     /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
-    #[inline(always)]
+    #[inline(never)]
     fn arrive<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32) -> bool {
         let Self { scene, radiance, surfaces, scratch, .. } = self;
         let mut any = false;
@@ -191,7 +189,7 @@ impl Stage<'_> {
     }
 
     /// Gives the light that the surfaces send back to their pixels, and queues the rays that go on.
-    #[inline(always)]
+    #[inline(never)]
     fn leave<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32) {
         let Self { scene, radiance, queue, surfaces, lighting, .. } = self;
         let last = depth == scene.plan.waves;

@@ -1,21 +1,29 @@
-//! Groups of rays behind beams, as the primitives of a block are tested against them.
+//! Which groups of rays a block's primitives are tested with: those whose beams meet the primitive's box.
 
 use super::beam::Beam;
 use super::beams::Beams;
-use crate::math::{Lanes, Vec3};
+use super::leaf::each;
+use crate::bvh::BLOCK;
+use crate::math::Vec3;
 use std::marker::PhantomData;
 use wide::{f32x8, f32x16};
 
-/// A group of rays behind a beam, or several of [`Beams`], whose rays are tested in packets.
-pub trait Behind: Sized {
-    /// How wide they are tested.
-    type Lanes: Lanes;
-    /// Around the rays.
-    fn beam(&self) -> &Beam;
-    /// The lanes whose boxes the beam meets.
-    fn met(&self, extent: &[Vec3<f32x8>; 2]) -> u32;
-    /// The groups that may meet the box in a lane, as bits.
-    fn groups(&self, extent: &[Vec3<f32x8>; 2], lane: usize) -> u32;
+/// A block's primitives that any group meets.
+pub struct Met {
+    /// The primitives, as bits.
+    pub primitives: u32,
+    /// Each one's groups, as bits.
+    pub groups: [u32; BLOCK],
+    /// The axis of the largest component of all directions, where it is known.
+    pub major: Option<usize>,
+}
+
+/// Groups of rays behind beams that meet a block.
+pub trait Behind {
+    /// The width that their rays are tested at.
+    type Lanes;
+    /// Those of the `used` primitives whose boxes are met, and by which groups.
+    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met;
 }
 
 /// One group.
@@ -34,19 +42,12 @@ impl<'a, L, const MIXED: bool> Group<'a, L, MIXED> {
     }
 }
 
-impl<L: Lanes, const MIXED: bool> Behind for Group<'_, L, MIXED> {
+impl<L, const MIXED: bool> Behind for Group<'_, L, MIXED> {
     type Lanes = L;
     #[inline(always)]
-    fn beam(&self) -> &Beam {
-        self.beam
-    }
-    #[inline(always)]
-    fn met(&self, extent: &[Vec3<f32x8>; 2]) -> u32 {
-        beam_meets::<MIXED>(self.beam, extent, self.limit)
-    }
-    #[inline(always)]
-    fn groups(&self, _: &[Vec3<f32x8>; 2], _: usize) -> u32 {
-        1 << self.lane
+    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met {
+        let primitives = beam_meets::<MIXED>(self.beam, extent, self.limit) & used;
+        Met { primitives, groups: [1 << self.lane; BLOCK], major: self.beam.major }
     }
 }
 
@@ -67,25 +68,25 @@ impl<'a, L, const MIXED: bool> Groups<'a, L, MIXED> {
     }
 }
 
-impl<L: Lanes, const MIXED: bool> Behind for Groups<'_, L, MIXED> {
+impl<L, const MIXED: bool> Behind for Groups<'_, L, MIXED> {
     type Lanes = L;
     #[inline(always)]
-    fn beam(&self) -> &Beam {
-        &self.beams.whole
-    }
-    #[inline(always)]
-    fn met(&self, extent: &[Vec3<f32x8>; 2]) -> u32 {
-        beam_meets::<MIXED>(&self.beams.whole, extent, self.limit)
-    }
-    #[inline(always)]
-    fn groups(&self, [low, high]: &[Vec3<f32x8>; 2], lane: usize) -> u32 {
-        let pick = |v: &f32x8| v.as_array()[lane & 7];
-        let faces = |axis: usize| match axis {
-            0 => [pick(&low.x), pick(&high.x)],
-            1 => [pick(&low.y), pick(&high.y)],
-            _ => [pick(&low.z), pick(&high.z)],
-        };
-        self.groups & self.beams.meets::<MIXED>(faces, self.limits)
+    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met {
+        let beam = &self.beams.whole;
+        let mut met = Met { primitives: 0, groups: [0; BLOCK], major: beam.major };
+        let [low, high] = extent;
+        each(beam_meets::<MIXED>(beam, extent, self.limit) & used, |lane| {
+            let pick = |v: &f32x8| v.as_array()[lane & (BLOCK - 1)];
+            let faces = |axis: usize| match axis {
+                0 => [pick(&low.x), pick(&high.x)],
+                1 => [pick(&low.y), pick(&high.y)],
+                _ => [pick(&low.z), pick(&high.z)],
+            };
+            let groups = self.groups & self.beams.meets::<MIXED>(faces, self.limits);
+            met.groups[lane & (BLOCK - 1)] = groups;
+            met.primitives |= u32::from(groups != 0) << lane;
+        });
+        met
     }
 }
 

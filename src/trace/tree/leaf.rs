@@ -2,7 +2,7 @@
 //! their own.
 
 use super::beams::RAYS;
-use super::behind::{Behind, Group, Groups};
+use super::behind::{Behind, Group, Groups, Met};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
@@ -59,8 +59,8 @@ impl Alone {
 pub trait Leaf: Bounded {
     /// A block against groups.
     #[inline(always)]
-    fn groups<Q: Query, B: Behind>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, groups: &B) -> bool {
-        self::groups::<Q, Self, _, B>(walk, Standard, block, variant, groups)
+    fn groups<Q: Query, L: Lanes>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, met: &Met) -> bool {
+        self::groups::<Q, Self, _, L>(walk, Standard, block, variant, met)
     }
 
     /// A block against sixteen rays.
@@ -101,16 +101,29 @@ impl<L: Lanes, const MIXED: bool> Visitor for Groups<'_, L, MIXED> {
 }
 
 #[inline(always)]
-fn visit_groups<Q: Query, K: Leaf, B: Behind>(
+fn visit_groups<Q: Query, K: Leaf, B: Behind<Lanes: Lanes>>(
     walk: &mut Walk,
     kind: &K,
     block: &Block<K>,
     variant: K::Variant,
     groups: &B,
 ) -> bool {
+    let met = groups.met(&K::extent(&columns(block)), used(block));
+    met.primitives != 0 && test_groups::<Q, K, B::Lanes>(walk, kind, block, variant, &met)
+}
+
+/// Compiled once for all kinds of beams.
+#[inline(never)]
+fn test_groups<Q: Query, K: Leaf, L: Lanes>(
+    walk: &mut Walk,
+    kind: &K,
+    block: &Block<K>,
+    variant: K::Variant,
+    met: &Met,
+) -> bool {
     match kind.named() {
-        None => K::groups::<Q, B>(walk, block, variant, groups),
-        Some(test) => groups_named::<Q, K, B>(walk, test, block, variant, groups),
+        None => K::groups::<Q, L>(walk, block, variant, met),
+        Some(test) => groups_named::<Q, K, L>(walk, test, block, variant, met),
     }
 }
 
@@ -158,24 +171,23 @@ pub fn columns<K: Primitives>(block: &Block<K>) -> K::Shape<f32x8> {
 
 /// Groups against the primitives whose boxes they meet.
 #[inline(always)]
-fn groups<Q: Query, K: Bounded, T: Test<K>, B: Behind>(
+fn groups<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
     walk: &mut Walk,
     test: T,
     block: &Block<K>,
     variant: K::Variant,
-    groups: &B,
+    met: &Met,
 ) -> bool {
-    let extent = K::extent(&columns(block));
     let mut taken = false;
-    each(groups.met(&extent) & used(block), |lane| {
+    each(met.primitives, |lane| {
         let lane = lane & (BLOCK - 1);
         let shape = K::splat(&block.primitive(lane));
-        each(groups.groups(&extent, lane), |group| {
-            for at in (RAYS * group..RAYS * (group + 1)).step_by(B::Lanes::WIDTH) {
+        each(met.groups[lane], |group| {
+            for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
                 let packet = Packet::of(walk.rays, at);
                 let faces = Faces::new(packet.direction);
-                if let Some((t, inside)) = hits::<K, T, B::Lanes>(test, &shape, variant, &packet, &faces) {
-                    taken |= walk.state.take::<Q, B::Lanes>(at, t, inside, block.id[lane]);
+                if let Some((t, inside)) = hits::<K, T, L>(test, &shape, variant, &packet, &faces) {
+                    taken |= walk.state.take::<Q, L>(at, t, inside, block.id[lane]);
                 }
             }
         });
@@ -185,14 +197,14 @@ fn groups<Q: Query, K: Bounded, T: Test<K>, B: Behind>(
 
 /// [`groups`] by a method that was asked for.
 #[inline(never)]
-fn groups_named<Q: Query, K: Bounded, B: Behind>(
+fn groups_named<Q: Query, K: Bounded, L: Lanes>(
     walk: &mut Walk,
     test: K::Named,
     block: &Block<K>,
     variant: K::Variant,
-    to: &B,
+    met: &Met,
 ) -> bool {
-    groups::<Q, K, _, B>(walk, test, block, variant, to)
+    groups::<Q, K, _, L>(walk, test, block, variant, met)
 }
 
 /// Packets against the primitives of some lanes.

@@ -2,12 +2,12 @@
 //! the directions' largest.
 
 use super::beams::RAYS;
-use super::behind::Behind;
-use super::leaf::{Alone, Leaf, Sixteen, columns, each, take_eight, used};
+use super::behind::Met;
+use super::leaf::{Alone, Leaf, Sixteen, columns, each, take_eight};
 use super::walk::Walk;
-use crate::bvh::Block;
+use crate::bvh::{BLOCK, Block};
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
-use crate::geometry::{Bounded, Sides, Triangles};
+use crate::geometry::{Sides, Triangles};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 use crate::trace::query::Query;
 use wide::{f32x8, f32x16};
@@ -19,27 +19,25 @@ const LINES: usize = 8;
 
 impl Leaf for Triangles {
     #[inline(always)]
-    fn groups<Q: Query, B: Behind>(walk: &mut Walk, block: &Block<Self>, sides: Sides, groups: &B) -> bool {
-        let extent = Self::extent(&columns(block));
+    fn groups<Q: Query, L: Lanes>(walk: &mut Walk, block: &Block<Self>, sides: Sides, met: &Met) -> bool {
         let mut taken = false;
         let corners = &block.shape.corners;
-        each(groups.met(&extent) & used(block), |lane| {
-            let lane = lane & 7;
+        each(met.primitives, |lane| {
+            let lane = lane & (BLOCK - 1);
             walk.prefetch.step(LINES);
             let primitive = block.primitive(lane).corners();
-            let from = |origin: Vec3<B::Lanes>, major: usize| {
+            let from = |origin: Vec3<L>, major: usize| {
                 let origin = origin.ordered(major);
-                let axis = |k: usize, i: usize| B::Lanes::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
+                let axis = |k: usize, i: usize| L::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
                 map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)))
             };
             // Once for all where all start at one point.
             let first = walk.rays.first_origin();
-            let fixed =
-                groups.beam().major.filter(|_| walk.rays.common_origin).map(|major| from(Vec3::splat(first), major));
-            each(groups.groups(&extent, lane), |group| {
-                for at in (RAYS * group..RAYS * (group + 1)).step_by(B::Lanes::WIDTH) {
-                    let origin = walk.rays.origins::<B::Lanes>(at);
-                    let inside = match (&fixed, groups.beam().major) {
+            let fixed = met.major.filter(|_| walk.rays.common_origin).map(|major| from(Vec3::splat(first), major));
+            each(met.groups[lane], |group| {
+                for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
+                    let origin = walk.rays.origins::<L>(at);
+                    let inside = match (&fixed, met.major) {
                         (Some(seen), _) => covers_ordered(seen, walk.state.shear(at)),
                         (None, Some(major)) => covers_ordered(&from(origin, major), walk.state.shear(at)),
                         (None, None) => {
@@ -49,7 +47,7 @@ impl Leaf for Triangles {
                     };
                     let Some(inside) = inside else { continue };
                     let flat = Flat::of(primitive, origin);
-                    taken |= take::<Q, B::Lanes>(walk, at, &flat, sides, inside, block.id[lane]);
+                    taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
                 }
             });
         });
