@@ -55,6 +55,8 @@ impl<'a> Places<'a> {
     pub(crate) fn fetch_child(&self, child: Child) {
         let kind = child.number();
         let at = self.stride[kind] * child.index();
-        (0..LINES).for_each(|line| prefetch_index(self.first[kind], at + LINE / size_of::<u32>() * line));
+        for line in 0..LINES {
+            prefetch_index(self.first[kind], at + LINE / size_of::<u32>() * line);
+        }
     }
 }

@@ -39,7 +39,7 @@ impl Node {
     /// The boxes' coordinates along an axis at one end (0 for the least) and at the other.
     #[inline(always)]
     pub fn faces(&self, axis: usize, end: usize) -> [f32x8; 2] {
-        [end & 1, !end & 1].map(|end| self.ends[end][axis].into())
+        [self.ends[end & 1][axis].into(), self.ends[!end & 1][axis].into()]
     }
 
     /// One child's coordinate along an axis at one end.

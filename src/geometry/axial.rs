@@ -34,6 +34,7 @@ pub(super) fn axes(base: Vec3, apex: Vec3) -> ([DVec3; 3], f64) {
 
 /// A box around discs across the unit `axis`, by their middles and radii, with room for the rounding of tests of a body of
 /// this size.
+#[inline]
 pub(super) fn bounds(axis: Vec3, discs: [(Vec3, f32); 2], size: f32) -> [Vec3; 2] {
     let axis = axis.as_dvec3();
     // √(1 − A²) a component, without cancelling.

@@ -14,11 +14,13 @@ pub struct Balls {
 
 impl Balls {
     /// The number of balls.
+    #[inline]
     pub fn len(&self) -> usize {
         self.len
     }
 
     /// Whether there is none.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -46,6 +48,7 @@ impl Balls {
     }
 
     /// Ball `i`'s centre.
+    #[inline]
     pub fn center(&self, i: usize) -> glam::Vec3 {
         glam::Vec3::new(self.center[0][i], self.center[1][i], self.center[2][i])
     }

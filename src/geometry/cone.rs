@@ -27,7 +27,7 @@
 use super::axial::{self, Crossing, Hull, slab};
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3, angle, map3};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 
 /// The least height, in differences of the radii: far below ε, and its square a normal number.
 const FLATTEST: f64 = 1.0 / (1u64 << 40) as f64;
@@ -151,6 +151,7 @@ impl Cones {
     }
 
     /// A box around cone `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -248,6 +249,7 @@ impl Primitives for Cones {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
@@ -255,7 +257,7 @@ impl Primitives for Cones {
     fn shape(&self, i: usize) -> ConeShape<f32> {
         let ConeNumbers { across: [t, b], turn, radii, length, scale, unit } = self.numbers[i];
         let (narrow, axes) = (self.narrow(i).into(), [t, b, self.axes[i][2].into()]);
-        ConeShape { narrow, axes, turn, radii, length, scale, unit, bounds: self.boxes[i].map(Vec3::from) }
+        ConeShape { narrow, axes, turn, radii, length, scale, unit, bounds: map2(self.boxes[i], Vec3::from) }
     }
     #[inline(always)]
     fn variant(&self, i: usize) -> Hull {
@@ -292,7 +294,7 @@ impl Primitives for Cones {
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         let Local { x, y, h, rho, outside, beyond, cap, wide } = self.local(i, point);
         let [t, b, axis] = map3(self.axes[i], Vec3::splat);
-        let [cos, sin] = self.numbers[i].turn.map(L::splat);
+        let [cos, sin] = map2(self.numbers[i].turn, L::splat);
         // At the tip any direction is as good.
         let radial = b.mul_add(y / rho, t * (x / rho)).select(rho.gt(L::zero()), t);
         let side = axis.mul_add(-sin, radial * cos);
@@ -303,7 +305,7 @@ impl Primitives for Cones {
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
         let Local { x, y, h, cap, wide, .. } = self.local(i, surface.point);
-        let [narrow, outer] = self.radii[i].map(|r| L::splat(0.5 / r));
+        let [narrow, outer] = map2(self.radii[i], |r| L::splat(0.5 / r));
         let (half, across) = (L::splat(0.5), outer.select(wide, narrow));
         let side = [angle::turn(x, y), self.height(i, h) * L::splat(1.0 / self.length[i])];
         [x.mul_add(across, half).select(cap, side[0]), y.mul_add(across, half).select(cap, side[1])]

@@ -19,7 +19,7 @@ pub use super::face::Aim;
 use super::frame::along;
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
-use crate::math::{LaneMask, Lanes, Vec3, map3};
+use crate::math::{LaneMask, Lanes, Vec3, map2, map3};
 use glam::DMat3;
 
 /// ε, the unit roundoff.
@@ -89,7 +89,7 @@ impl Cuboids {
     /// The corners of box `i` with the least and the greatest coordinates, before they are turned.
     #[inline(always)]
     pub fn corners(&self, i: usize) -> [glam::Vec3; 2] {
-        [&self.min, &self.max].map(|c| columns::at(c, i))
+        map2([&self.min, &self.max], |c| columns::at(c, i))
     }
 
     /// Centre and half the size of box `i`, each rounded once.
@@ -100,6 +100,7 @@ impl Cuboids {
     }
 
     /// A box along the world's axes around box `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -116,7 +117,7 @@ impl Cuboids {
     /// A point in the box's own axes, from its centre, and half the box's size.
     #[inline(always)]
     fn own<L: Lanes>(&self, i: usize, point: Vec3<L>) -> [Vec3<L>; 2] {
-        let [center, half] = self.center_and_half(i).map(Vec3::splat);
+        let [center, half] = map2(self.center_and_half(i), Vec3::splat);
         let q = point - center;
         [self.axes[i].map_or(q, |axes| along(&map3(axes, Vec3::splat), q)), half]
     }
@@ -171,14 +172,15 @@ impl Primitives for Cuboids {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
     #[inline(always)]
     fn shape(&self, i: usize) -> CuboidShape<f32> {
-        let [min, max] = self.corners(i).map(Vec3::from);
+        let [min, max] = map2(self.corners(i), Vec3::from);
         let axes = self.axes[i].unwrap_or([glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z]);
-        CuboidShape { min, max, axes: map3(axes, Vec3::from), bounds: self.boxes[i].map(Vec3::from) }
+        CuboidShape { min, max, axes: map3(axes, Vec3::from), bounds: map2(self.boxes[i], Vec3::from) }
     }
     #[inline(always)]
     fn variant(&self, i: usize) -> Turned {
@@ -238,7 +240,7 @@ impl Primitives for Cuboids {
         let margin = glam::Vec3::splat(ROUNDOFF * (8.0 * reach + 4.0 * most.max_element())).min(size * 0.5);
         let within = Vec3::splat(size - margin);
         let q_on = face::by_axis(on, face::by_sign(q, half, -half), q.max(-within).min(within));
-        let [x, y, z] = axes.map(Vec3::splat);
+        let [x, y, z] = map3(axes, Vec3::splat);
         let point = x.mul_add(q_on.x, y.mul_add(q_on.y, z * q_on.z)) + Vec3::splat(center);
         let sign = face::signs(q);
         let normal = (x * sign.x).select(on_x, (y * sign.y).select(on_y, z * sign.z));

@@ -22,7 +22,7 @@
 use super::axial::{self, Crossing, Hull, slab};
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
-use crate::math::{LaneMask, Lanes, Vec3, angle, map3};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 
 /// Squared sine of the angle to the axis below which a ray is parallel to it: 2⁻⁶⁰.
 const PARALLEL: f32 = 1.0 / (1u64 << 60) as f32;
@@ -99,6 +99,7 @@ impl Cylinders {
     }
 
     /// A box around cylinder `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -166,6 +167,7 @@ impl Primitives for Cylinders {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
@@ -176,7 +178,7 @@ impl Primitives for Cylinders {
             axes: map3(self.axes[i], Vec3::from),
             radius: self.radius[i],
             length: self.length[i],
-            bounds: self.boxes[i].map(Vec3::from),
+            bounds: map2(self.boxes[i], Vec3::from),
         }
     }
     #[inline(always)]

@@ -19,7 +19,7 @@
 
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, axial, columns, flat};
-use crate::math::{LaneMask, Lanes, Vec3, angle, map3};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 use glam::DVec3;
 
 /// Discs, column by column.
@@ -78,6 +78,7 @@ impl Discs {
     }
 
     /// A box around disc `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -132,6 +133,7 @@ impl Primitives for Discs {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
@@ -142,9 +144,10 @@ impl Primitives for Discs {
             center: self.center(i).into(),
             normal: self.axes[i][2].into(),
             squares: [inner * inner, radius * radius],
-            bounds: self.boxes[i].map(Vec3::from),
+            bounds: map2(self.boxes[i], Vec3::from),
         }
     }
+    #[inline]
     fn variant(&self, _: usize) {}
     #[inline(always)]
     fn zip<A: Number, B: Number, C: Number>(

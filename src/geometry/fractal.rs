@@ -34,7 +34,7 @@ use super::face;
 pub use super::face::Aim;
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
-use crate::math::{LaneMask, Lanes, Vec3};
+use crate::math::{LaneMask, Lanes, Vec3, map2};
 
 /// ε, the unit roundoff.
 const ROUNDOFF: f32 = 0.5 * f32::EPSILON;
@@ -177,6 +177,7 @@ impl Fractals {
     }
 
     /// A box around fractal `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -213,12 +214,13 @@ impl Primitives for Fractals {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
     #[inline(always)]
     fn shape(&self, i: usize) -> FractalShape<f32> {
-        let bounds = self.boxes[i].map(Vec3::from);
+        let bounds = map2(self.boxes[i], Vec3::from);
         FractalShape { center: self.center(i).into(), radius: self.radius[i], bounds }
     }
     #[inline(always)]

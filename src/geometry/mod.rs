@@ -127,6 +127,7 @@ pub trait Primitives: Sized {
         self.materials().len()
     }
     /// Whether there is none.
+    #[inline]
     fn is_empty(&self) -> bool {
         self.len() == 0
     }

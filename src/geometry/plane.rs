@@ -8,7 +8,7 @@
 
 use super::numbers::numbers;
 use super::{Cull, LaneHits, Never, Number, Primitives, Surface, columns, frame};
-use crate::math::{LaneMask, Lanes, Vec3};
+use crate::math::{LaneMask, Lanes, Vec3, map2};
 
 /// Planes, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,6 +71,7 @@ impl Planes {
     }
 
     /// Plane `i`'s normal.
+    #[inline]
     pub fn normal(&self, i: usize) -> glam::Vec3 {
         columns::at(&self.normal, i)
     }
@@ -87,6 +88,7 @@ impl Primitives for Planes {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Planes(self)
     }
@@ -94,6 +96,7 @@ impl Primitives for Planes {
     fn shape(&self, i: usize) -> PlaneShape<f32> {
         PlaneShape { normal: self.normal(i).into(), distance: self.distance[i] }
     }
+    #[inline]
     fn variant(&self, _: usize) {}
     #[inline(always)]
     fn zip<A: Number, B: Number, C: Number>(
@@ -129,7 +132,7 @@ impl Primitives for Planes {
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        let [t, b] = self.unit[i].axes.map(Vec3::splat);
+        let [t, b] = map2(self.unit[i].axes, Vec3::splat);
         Vec3::new(surface.point.dot(t), surface.point.dot(b), L::zero())
     }
 }

@@ -6,7 +6,7 @@
 
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, columns, flat};
-use crate::math::{LaneMask, Lanes, Vec3, map3};
+use crate::math::{LaneMask, Lanes, Vec3, map2, map3};
 
 /// Quads, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,6 +68,7 @@ impl Quads {
     }
 
     /// A box around quad `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -113,14 +114,16 @@ impl Primitives for Quads {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
     #[inline(always)]
     fn shape(&self, i: usize) -> QuadShape<f32> {
         let [corner, u, v] = map3(self.corner_and_edges(i), Vec3::from);
-        QuadShape { corner, u, v, bounds: self.boxes[i].map(Vec3::from) }
+        QuadShape { corner, u, v, bounds: map2(self.boxes[i], Vec3::from) }
     }
+    #[inline]
     fn variant(&self, _: usize) {}
     #[inline(always)]
     fn zip<A: Number, B: Number, C: Number>(

@@ -72,6 +72,7 @@ impl Spheres {
     }
 
     /// Sphere `i`'s centre.
+    #[inline]
     pub fn center(&self, i: usize) -> glam::Vec3 {
         self.balls.center(i)
     }
@@ -105,6 +106,7 @@ impl Primitives for Spheres {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }

@@ -46,7 +46,7 @@ use super::methods::TorusMethod;
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Surface, Test, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
-use crate::math::{LaneMask, Lanes, Vec3, angle, map3, powf};
+use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3, powf};
 use glam::DVec3;
 
 /// ε, the unit roundoff.
@@ -139,6 +139,7 @@ impl Tori {
     }
 
     /// A box around torus `i`.
+    #[inline]
     pub fn bounds(&self, i: usize) -> [glam::Vec3; 2] {
         self.boxes[i]
     }
@@ -192,6 +193,7 @@ impl Primitives for Tori {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Balls(&self.balls)
     }
@@ -204,9 +206,10 @@ impl Primitives for Tori {
             major,
             kappa: minor / major,
             near: self.near[i],
-            bounds: self.boxes[i].map(Vec3::from),
+            bounds: map2(self.boxes[i], Vec3::from),
         }
     }
+    #[inline]
     fn variant(&self, _: usize) {}
     #[inline(always)]
     fn zip<A: Number, B: Number, C: Number>(
@@ -284,7 +287,7 @@ pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min:
     let d = along(&seen.axes, direction);
     let b = seen.f.dot(d);
     let q = d.mul_add(-b, seen.f);
-    let [start, end] = [t_min, t_max].map(|t| t.mul_add(per_major, b));
+    let [start, end] = map2([t_min, t_max], |t| t.mul_add(per_major, b));
     let span = Span::around(seen.kappa, q, d, [start, end])?;
     let path = Path::new(q, d, &span, seen.kappa, seen.near);
     let at_first = path.sample(path.ends[0]);

@@ -258,6 +258,7 @@ impl Primitives for Triangles {
     fn materials(&self) -> &[u32] {
         &self.material
     }
+    #[inline]
     fn cull(&self) -> Cull<'_> {
         Cull::Triangles(self)
     }

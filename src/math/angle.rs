@@ -3,6 +3,7 @@
 //! Everything is counted in turns: what asks for an angle here looks something up by it.
 
 use super::Lanes;
+use super::power::polynomial;
 
 /// atan(√z) / (2π √z) on [0, 1]; the highest power's coefficient comes first.
 ///
@@ -45,9 +46,8 @@ fn arc_tangent<L: Lanes>(y: L, x: L) -> L {
     let (less, greater) = (across.min(up), up.max(across));
     let ratio = less / one.select(greater.eq(zero), greater);
     let square = ratio * ratio;
-    let polynomial = ARC_TANGENT[1..].iter().fold(L::splat(ARC_TANGENT[0]), |sum, &c| sum.mul_add(square, L::splat(c)));
     // Within the first eighth of a turn; then its mirror image in the quarter, the half, the whole.
-    let eighth = ratio * polynomial;
+    let eighth = ratio * polynomial(square, ARC_TANGENT);
     let quarter = (L::splat(0.25) - eighth).select(up.gt(across), eighth);
     let half = (L::splat(0.5) - quarter).select(x.lt(zero), quarter);
     (-half).select(y.lt(zero), half)

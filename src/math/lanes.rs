@@ -132,6 +132,13 @@ fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// The first `N` numbers of a slice, to be written; the library's copy of slices is a call where a crate is compiled in
+/// several units.
+#[inline(always)]
+fn room<T, const N: usize>(to: &mut [T]) -> &mut [T; N] {
+    (&mut to[..N]).try_into().expect("the slice has this length")
+}
+
 /// The widest of the kernels that a scene can be traced by.
 pub const KERNEL_LANES: usize = 8;
 
@@ -293,7 +300,7 @@ macro_rules! wide_lanes {
             }
             #[inline(always)]
             fn store(self, to: &mut [f32]) {
-                to[..$width].copy_from_slice(&self.to_array());
+                *room(to) = self.to_array();
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
@@ -364,7 +371,7 @@ macro_rules! wide_lanes {
             }
             #[inline(always)]
             fn store_ids(self, to: &mut [u32]) {
-                to[..$width].copy_from_slice(&cast::<$float, $int>(self).to_array());
+                *room(to) = cast::<$float, $int>(self).to_array();
             }
             #[inline(always)]
             fn store_hits(t: Self, id: Self, mask: Self, to_t: &mut [f32], to_id: &mut [u32]) {
@@ -411,9 +418,12 @@ type WiderThan8 = f32x16;
 #[cfg(not(target_feature = "avx512f"))]
 type WiderThan8 = f32x8;
 
+/// 2⁰ … 2¹⁵.
+const POWERS: [u32; 16] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768];
+
 wide_lanes!(f32x4, f32x4, u32x4, i32x4, from_i32x4, 4, "x4", [1, 2, 4, 8]);
 wide_lanes!(f32x8, WiderThan8, u32x8, i32x8, from_i32x8, 8, "x8", [1, 2, 4, 8, 16, 32, 64, 128]);
-wide_lanes!(f32x16, f32x16, u32x16, i32x16, from_i32x16, 16, "x16", std::array::from_fn(|lane| 1 << lane));
+wide_lanes!(f32x16, f32x16, u32x16, i32x16, from_i32x16, 16, "x16", POWERS);
 
 #[cfg(test)]
 mod tests {

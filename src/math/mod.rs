@@ -17,7 +17,14 @@ pub use power::{exp2, powf};
 pub use srgb::linear_of_bytes;
 pub use vec3::{Vec3, inverse_root};
 
-/// [`array::map`] of three, always inlined: the library's own is a call where the numbers are wide.
+/// [`array::map`] of two, always inlined: the library's own is a call where the numbers are wide or a crate is compiled
+/// in several units.
+#[inline(always)]
+pub(crate) fn map2<T, U>([a, b]: [T; 2], mut of: impl FnMut(T) -> U) -> [U; 2] {
+    [of(a), of(b)]
+}
+
+/// [`map2`] of three.
 #[inline(always)]
 pub(crate) fn map3<T, U>([a, b, c]: [T; 3], mut of: impl FnMut(T) -> U) -> [U; 3] {
     [of(a), of(b), of(c)]

@@ -52,8 +52,12 @@ pub fn exp2<L: Lanes>(x: L) -> L {
 
 /// By Horner's rule; the highest power's coefficient comes first.
 #[inline(always)]
-fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f32; N]) -> L {
-    coefficients[1..].iter().fold(L::splat(coefficients[0]), |sum, &c| sum.mul_add(x, L::splat(c)))
+pub(super) fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f32; N]) -> L {
+    let mut sum = L::splat(coefficients[0]);
+    for c in &coefficients[1..] {
+        sum = sum.mul_add(x, L::splat(*c));
+    }
+    sum
 }
 
 #[cfg(test)]

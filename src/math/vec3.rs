@@ -9,7 +9,11 @@ use super::Lanes;
 #[inline(never)]
 pub fn inverse_root<L: Lanes>(x: L, steps: u32) -> L {
     let half = x * L::splat(-0.5);
-    (0..steps).fold(x.estimate_inverse_root(), |y, _| y * (half * y).mul_add(y, L::splat(1.5)))
+    let mut y = x.estimate_inverse_root();
+    for _ in 0..steps {
+        y = y * (half * y).mul_add(y, L::splat(1.5));
+    }
+    y
 }
 
 /// A vector in every lane; `Vec3<f32>` is a single one.

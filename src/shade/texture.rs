@@ -75,12 +75,15 @@ pub(super) fn bilinear<L: Lanes>(
     for lane in 0..L::WIDTH {
         let [upper, lower] = [rows.from[lane] * width, rows.to[lane] * width];
         let [left, right] = [columns.from[lane], columns.to[lane]];
-        let colors = [upper + left, upper + right, lower + left, lower + right].map(&texel);
-        for (channels, color) in corners.iter_mut().zip(colors) {
-            channels.iter_mut().zip(color).for_each(|(lanes, value)| lanes[lane] = value);
+        let colors = [texel(upper + left), texel(upper + right), texel(lower + left), texel(lower + right)];
+        for (corner, color) in corners.iter_mut().zip(colors) {
+            for channel in 0..3 {
+                corner[channel][lane] = color[channel];
+            }
         }
     }
-    let [a, b, c, d] = corners.map(|columns| Vec3::<L>::load(&columns, 0));
+    let color = |corner: usize| Vec3::<L>::load(&corners[corner], 0);
+    let [a, b, c, d] = [color(0), color(1), color(2), color(3)];
     let (across, down) = (L::load(&columns.part), L::load(&rows.part));
     let (upper, lower) = ((b - a).mul_add(across, a), (d - c).mul_add(across, c));
     (lower - upper).mul_add(down, upper)

@@ -64,7 +64,9 @@ impl Bounds {
     pub fn balls_met<L: Lanes>(&self, balls: &Balls, show: &mut impl FnMut(usize)) {
         let count = balls.len();
         let Some(cone) = &self.cone else {
-            (0..count).for_each(show);
+            for i in 0..count {
+                show(i);
+            }
             return;
         };
         let Balls { center: [x, y, z], radius, .. } = balls;

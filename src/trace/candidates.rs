@@ -84,18 +84,28 @@ impl<F: Form, K: Primitives> List<F, K> {
             return self.fill_named::<L>(test, kind, first, bounds);
         }
         let origin = bounds.origin.middle;
-        met::<K, L>(kind, bounds, |i| {
-            self.standard.push((F::record(Standard, kind, i, origin), kind.variant(i), first + i as u32));
-        });
+        met::<K, L>(
+            kind,
+            bounds,
+            #[inline(always)]
+            |i| {
+                self.standard.push((F::record(Standard, kind, i, origin), kind.variant(i), first + i as u32));
+            },
+        );
     }
 
     #[inline(never)]
     fn fill_named<L: Lanes>(&mut self, test: K::Named, kind: &K, first: u32, bounds: &Bounds) {
         self.named.clear();
         let origin = bounds.origin.middle;
-        met::<K, L>(kind, bounds, |i| {
-            self.named.push((F::record(test, kind, i, origin), kind.variant(i), first + i as u32));
-        });
+        met::<K, L>(
+            kind,
+            bounds,
+            #[inline(always)]
+            |i| {
+                self.named.push((F::record(test, kind, i, origin), kind.variant(i), first + i as u32));
+            },
+        );
     }
 
     fn is_empty(&self) -> bool {
@@ -107,8 +117,20 @@ impl<F: Form, K: Primitives> List<F, K> {
 #[inline(always)]
 fn met<K: Primitives, L: Lanes>(kind: &K, bounds: &Bounds, mut show: impl FnMut(usize)) {
     match kind.cull() {
-        Cull::Planes(planes) => (0..planes.len()).filter(|&i| !bounds.miss_plane(planes, i)).for_each(show),
-        Cull::Triangles(all) => (0..all.len()).filter(|&i| !bounds.miss_triangle(all, i)).for_each(show),
+        Cull::Planes(planes) => {
+            for i in 0..planes.len() {
+                if !bounds.miss_plane(planes, i) {
+                    show(i);
+                }
+            }
+        }
+        Cull::Triangles(all) => {
+            for i in 0..all.len() {
+                if !bounds.miss_triangle(all, i) {
+                    show(i);
+                }
+            }
+        }
         Cull::Balls(balls) => bounds.balls_met::<L>(balls, &mut show),
     }
 }

@@ -8,7 +8,7 @@ use super::query::{Found, Query};
 use crate::geometry::face::Aim;
 use crate::geometry::{Bounded, Primitives, Standard, Test};
 use crate::kinds::for_each_kind;
-use crate::math::{LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{LaneMask, Lanes, RayBatch, Vec3, map2};
 use crate::scene::Scene;
 
 /// Gives `take` what every packet with an active ray has found: its first ray, the active lanes and the answer.
@@ -186,7 +186,7 @@ fn boxed<F: Form, K: Bounded, T: Test<K>, L: Lanes, A: Found<L>>(
             }
             continue;
         }
-        let bounds = kind.around((id - first) as usize).map(Vec3::splat);
+        let bounds = map2(kind.around((id - first) as usize), Vec3::splat);
         let Some(within) = Within::of(bounds, packet.origin, faces, packet.t_min, found.t_max()) else { continue };
         let seen = F::seen::<K, T, L>(test, record, *variant, packet.origin);
         // As far as the ray goes: the box may bring a hit before another that was found.

@@ -28,10 +28,14 @@ impl<'a> Prefetch<'a> {
         }
         if self.line >= RayBatch::LINES {
             if let Some(hits) = self.hits {
-                (self.line..self.line + lines).for_each(|line| hits.fetch(line - RayBatch::LINES));
+                for line in self.line..self.line + lines {
+                    hits.fetch(line - RayBatch::LINES);
+                }
             }
         } else if let Some(rays) = self.rays {
-            (self.line..self.line + lines).for_each(|line| rays.fetch(line));
+            for line in self.line..self.line + lines {
+                rays.fetch(line);
+            }
         }
         self.line += lines;
     }

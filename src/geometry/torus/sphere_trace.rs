@@ -1,7 +1,7 @@
 //! Sphere tracing of a torus: from a point no surface is nearer than the distance to it, so that is how far to step.
 
 use super::{LaneHits, ROUNDOFF, SeenTorus, Span, along};
-use crate::math::{LaneMask, Lanes, Vec3};
+use crate::math::{LaneMask, Lanes, Vec3, map2};
 
 /// The most steps.
 const MAX_STEPS: usize = 256;
@@ -29,7 +29,7 @@ pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L,
     // s counts from the closest approach q to the centre.
     let b = seen.f.dot(d);
     let q = d.mul_add(-b, seen.f);
-    let ends = [t_min, t_max].map(|t| t.mul_add(per_major, b));
+    let ends = map2([t_min, t_max], |t| t.mul_add(per_major, b));
     let Span { ends: [mut s, high], live: mut active, .. } = Span::around(seen.kappa, q, d, ends)?;
     let zero = L::zero();
     let near = L::splat(NEAR) * (L::splat(1.0) + seen.kappa);

@@ -1,7 +1,7 @@
 //! A batch's way through the tree: together, in parts, or one by one.
 
 use super::beams::{Beams, Ends, RAYS};
-use super::leaf::each;
+use super::leaf::Bits;
 use super::state::State;
 use super::walk::Walk;
 use crate::bvh::{Bvh, Places};
@@ -59,10 +59,10 @@ impl Walk<'_> {
         if narrow != 0 {
             self.beams::<Q, L>(&Beams::new(&ends, narrow, self.bvh, self.rays.common_origin), narrow);
         }
-        each(wide, |p| {
+        for p in Bits(wide) {
             self.state.lines.prepare(self.rays, self.bvh, RAYS * p..RAYS * (p + 1));
             self.packet::<Q>(RAYS * p);
-        });
+        }
     }
 
     /// Tests the planes, which no box holds.

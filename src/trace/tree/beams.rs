@@ -3,7 +3,7 @@
 use super::beam::{Beam, PAD, TINY};
 use super::state::State;
 use crate::bvh::{Bvh, Node};
-use crate::math::{BATCH, LaneMask, Lanes, RayBatch, map3};
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, map2, map3};
 use bytemuck::cast;
 use glam::Vec3;
 use wide::{f32x8, f32x16};
@@ -49,7 +49,7 @@ impl Ends {
             [map3([0, 1, 2], |axis| least(&columns[axis])), map3([0, 1, 2], |axis| greatest(&columns[axis]))]
         };
         let origins = match rays.common_origin {
-            true => [rays.first_origin().to_array().map(f32x16::splat); 2],
+            true => [map3(rays.first_origin().to_array(), f32x16::splat); 2],
             false => both(&rays.origin),
         };
         let limits = greatest(&state.t);
@@ -84,10 +84,11 @@ impl Ends {
 #[inline(always)]
 fn fold(column: impl Fn(usize) -> f32x16, op: impl Fn(f32x8, f32x8) -> f32x8) -> f32x16 {
     let half = |first: usize| {
-        let rows: [f32x8; 8] = std::array::from_fn(|p| {
+        let row = |p: usize| {
             let [a, b]: [f32x8; 2] = cast(column(first + p));
             op(a, b)
-        });
+        };
+        let rows = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
         let [a, b, c, d, e, f, g, h] = f32x8::transpose(rows);
         op(op(op(a, b), op(c, d)), op(op(e, f), op(g, h)))
     };
@@ -168,9 +169,9 @@ impl Beams {
         Beam {
             near: [pair(&self.near[0]), pair(&self.near[1]), pair(&self.near[2])],
             far: [pair(&self.far[0]), pair(&self.far[1]), pair(&self.far[2])],
-            side: [0, 1, 2].map(|axis| usize::from(bit(&self.behind[axis]))),
+            side: map3([0, 1, 2], |axis| usize::from(bit(&self.behind[axis]))),
             both,
-            mixed: both.contains(&true),
+            mixed: both[0] | both[1] | both[2],
             major: self.whole.major,
         }
     }
@@ -185,7 +186,7 @@ impl Beams {
             let ((r, a), (q, b)) = (self.near[axis], self.far[axis]);
             let faces = faces(axis);
             if MIXED {
-                let [low, high] = faces.map(f32x16::splat);
+                let [low, high] = map2(faces, f32x16::splat);
                 let (near, far) =
                     (Lanes::select(high, self.behind[axis], low), Lanes::select(low, self.behind[axis], high));
                 let (near, far) = (near.mul_sub(r, a), far.mul_sub(q, b));

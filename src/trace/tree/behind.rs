@@ -2,10 +2,9 @@
 
 use super::beam::Beam;
 use super::beams::Beams;
-use super::leaf::each;
+use super::leaf::Bits;
 use crate::bvh::BLOCK;
 use crate::math::Vec3;
-use std::marker::PhantomData;
 use wide::{f32x8, f32x16};
 
 /// A block's primitives that any group meets.
@@ -20,31 +19,26 @@ pub struct Met {
 
 /// Groups of rays behind beams that meet a block.
 pub trait Behind {
-    /// The width that their rays are tested at.
-    type Lanes;
     /// Those of the `used` primitives whose boxes are met, and by which groups.
     fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met;
 }
 
 /// One group.
-pub struct Group<'a, L, const MIXED: bool> {
+pub struct Group<'a, const MIXED: bool> {
     beam: &'a Beam,
     lane: usize,
     limit: f32,
-    lanes: PhantomData<L>,
 }
 
-impl<'a, L, const MIXED: bool> Group<'a, L, MIXED> {
+impl<'a, const MIXED: bool> Group<'a, MIXED> {
     /// Group `lane`, whose rays look as far as `limit`.
     #[inline(always)]
     pub fn new(beam: &'a Beam, lane: usize, limit: f32) -> Self {
-        Self { beam, lane, limit, lanes: PhantomData }
+        Self { beam, lane, limit }
     }
 }
 
-impl<L, const MIXED: bool> Behind for Group<'_, L, MIXED> {
-    type Lanes = L;
-    #[inline(always)]
+impl<const MIXED: bool> Behind for Group<'_, MIXED> {
     fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met {
         let primitives = beam_meets::<MIXED>(self.beam, extent, self.limit) & used;
         Met { primitives, groups: [1 << self.lane; BLOCK], major: self.beam.major }
@@ -52,30 +46,27 @@ impl<L, const MIXED: bool> Behind for Group<'_, L, MIXED> {
 }
 
 /// The groups of [`Beams`] whose bits are set.
-pub struct Groups<'a, L, const MIXED: bool> {
+pub struct Groups<'a, const MIXED: bool> {
     beams: &'a Beams,
     groups: u32,
     limits: f32x16,
     limit: f32,
-    lanes: PhantomData<L>,
 }
 
-impl<'a, L, const MIXED: bool> Groups<'a, L, MIXED> {
+impl<'a, const MIXED: bool> Groups<'a, MIXED> {
     /// Groups that look as far as `limits`, of which `limit` is the furthest.
     #[inline(always)]
     pub fn new(beams: &'a Beams, groups: u32, limits: f32x16, limit: f32) -> Self {
-        Self { beams, groups, limits, limit, lanes: PhantomData }
+        Self { beams, groups, limits, limit }
     }
 }
 
-impl<L, const MIXED: bool> Behind for Groups<'_, L, MIXED> {
-    type Lanes = L;
-    #[inline(always)]
+impl<const MIXED: bool> Behind for Groups<'_, MIXED> {
     fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met {
         let beam = &self.beams.whole;
         let mut met = Met { primitives: 0, groups: [0; BLOCK], major: beam.major };
         let [low, high] = extent;
-        each(beam_meets::<MIXED>(beam, extent, self.limit) & used, |lane| {
+        for lane in Bits(beam_meets::<MIXED>(beam, extent, self.limit) & used) {
             let pick = |v: &f32x8| v.as_array()[lane & (BLOCK - 1)];
             let faces = |axis: usize| match axis {
                 0 => [pick(&low.x), pick(&high.x)],
@@ -85,7 +76,7 @@ impl<L, const MIXED: bool> Behind for Groups<'_, L, MIXED> {
             let groups = self.groups & self.beams.meets::<MIXED>(faces, self.limits);
             met.groups[lane & (BLOCK - 1)] = groups;
             met.primitives |= u32::from(groups != 0) << lane;
-        });
+        }
         met
     }
 }

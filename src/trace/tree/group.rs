@@ -3,7 +3,7 @@
 use super::beam::Beam;
 use super::beams::{Beams, RAYS};
 use super::behind::{Group, Groups};
-use super::leaf::{block, each};
+use super::leaf::{Bits, Together, block};
 use super::stack::Part;
 use super::walk::Walk;
 use crate::bvh::{Child, Kind};
@@ -37,7 +37,9 @@ impl Walk<'_> {
             self.prefetch.step(LINES);
             let closer = match part.child.kind() {
                 Kind::Node if part.lanes.count_ones() <= FEW => {
-                    each(part.lanes, |lane| self.one::<Q, L>(&beams.one(lane), lane, part.child));
+                    for lane in Bits(part.lanes) {
+                        self.one::<Q, L>(&beams.one(lane), lane, part.child);
+                    }
                     true
                 }
                 Kind::Node => {
@@ -46,12 +48,14 @@ impl Walk<'_> {
                 }
                 _ => {
                     let limits = f32x16::new(limits);
-                    let group = Groups::<L, MIXED>::new(beams, part.lanes, limits, limit);
-                    block::<Q, _>(self, part.child, &group)
+                    let groups = Groups::<MIXED>::new(beams, part.lanes, limits, limit);
+                    block::<Q, _>(self, part.child, &Together::<L>::new(&groups))
                 }
             };
             if closer {
-                each(part.lanes, |lane| limits[lane & 15] = self.state.furthest::<L>(RAYS * lane..RAYS * (lane + 1)));
+                for lane in Bits(part.lanes) {
+                    limits[lane & 15] = self.state.furthest::<L>(RAYS * lane..RAYS * (lane + 1));
+                }
                 limit = f32x16::new(limits).greatest();
                 if limit < 0.0 {
                     return;
@@ -75,7 +79,7 @@ impl Walk<'_> {
         let base = self.state.parts.len();
         let (enter, met) = beams.whole.meets::<MIXED>(|axis, near| node.faces(axis, near), f32x8::splat(limit));
         let enter = enter.to_array();
-        each(met, |lane| {
+        for lane in Bits(met) {
             let lane = lane & 7;
             let lanes = part.lanes & beams.meets_child::<MIXED>(node, lane, limits);
             if lanes != 0 {
@@ -83,7 +87,7 @@ impl Walk<'_> {
                 self.places.fetch_child(child);
                 self.state.parts.sort_in(base, Part { enter: enter[lane], child, lanes });
             }
-        });
+        }
     }
 
     /// Traces one beam through a node and what is below.
@@ -115,7 +119,7 @@ impl Walk<'_> {
                     }
                     false
                 }
-                _ => block::<Q, _>(self, child, &Group::<L, MIXED>::new(beam, lane, limit)),
+                _ => block::<Q, _>(self, child, &Together::<L>::new(&Group::<MIXED>::new(beam, lane, limit))),
             };
             if closer {
                 limit = end(self);

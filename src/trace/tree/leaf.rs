@@ -2,7 +2,7 @@
 //! their own.
 
 use super::beams::RAYS;
-use super::behind::{Behind, Group, Groups, Met};
+use super::behind::{Behind, Met};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
@@ -12,6 +12,7 @@ use crate::kinds::for_each_kind;
 use crate::math::{LaneMask, Lanes, NONE, Vec3};
 use crate::trace::packet::{Packet, hits};
 use crate::trace::query::Query;
+use std::marker::PhantomData;
 use std::ops::Range;
 use wide::{f32x8, f32x16};
 
@@ -19,6 +20,19 @@ use wide::{f32x8, f32x16};
 pub trait Visitor {
     /// Tests primitives of a block of a kind; whether any hit was taken.
     fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool;
+}
+
+/// Groups of rays behind beams, which are tested in packets of `L::WIDTH`.
+pub struct Together<'a, L> {
+    groups: &'a dyn Behind,
+    lanes: PhantomData<L>,
+}
+
+impl<'a, L> Together<'a, L> {
+    /// Of any kind: which it is matters only for the boxes.
+    pub fn new(groups: &'a dyn Behind) -> Self {
+        Self { groups, lanes: PhantomData }
+    }
 }
 
 /// Sixteen rays, each with its own interval.
@@ -70,10 +84,10 @@ pub trait Leaf: Bounded {
         if rays.lanes.count_ones() <= used.count_ones() {
             // One ray against all primitives costs as much as one primitive against all rays.
             let mut taken = false;
-            each(rays.lanes, |lane| {
+            for lane in Bits(rays.lanes) {
                 let ray = Alone::new(walk, rays.at + lane);
                 taken |= eight::<Q, Self, _>(walk, Standard, block, variant, &ray);
-            });
+            }
             return taken;
         }
         packets::<Q, Self, _, f32x16>(walk, Standard, block, variant, used, rays.at..rays.at + f32x16::WIDTH)
@@ -86,33 +100,14 @@ pub trait Leaf: Bounded {
     }
 }
 
-impl<L: Lanes, const MIXED: bool> Visitor for Group<'_, L, MIXED> {
+impl<L: Lanes> Visitor for Together<'_, L> {
     #[inline(always)]
     fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
-        visit_groups::<Q, K, Self>(walk, kind, block, variant, self)
+        let met = self.groups.met(&K::extent(&columns(block)), used(block));
+        met.primitives != 0 && test_groups::<Q, K, L>(walk, kind, block, variant, &met)
     }
 }
 
-impl<L: Lanes, const MIXED: bool> Visitor for Groups<'_, L, MIXED> {
-    #[inline(always)]
-    fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
-        visit_groups::<Q, K, Self>(walk, kind, block, variant, self)
-    }
-}
-
-#[inline(always)]
-fn visit_groups<Q: Query, K: Leaf, B: Behind<Lanes: Lanes>>(
-    walk: &mut Walk,
-    kind: &K,
-    block: &Block<K>,
-    variant: K::Variant,
-    groups: &B,
-) -> bool {
-    let met = groups.met(&K::extent(&columns(block)), used(block));
-    met.primitives != 0 && test_groups::<Q, K, B::Lanes>(walk, kind, block, variant, &met)
-}
-
-/// Compiled once for all kinds of beams.
 #[inline(never)]
 fn test_groups<Q: Query, K: Leaf, L: Lanes>(
     walk: &mut Walk,
@@ -148,12 +143,17 @@ impl Visitor for Alone {
     }
 }
 
-/// Every bit that is set.
-#[inline(always)]
-pub fn each(mut bits: u32, mut take: impl FnMut(usize)) {
-    while bits != 0 {
-        take(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
+/// The places of the bits that are set, from the lowest on.
+#[derive(Clone, Copy)]
+pub struct Bits(pub u32);
+
+impl Iterator for Bits {
+    type Item = usize;
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let lowest = self.0.trailing_zeros();
+        self.0 &= self.0.wrapping_sub(1);
+        (lowest < u32::BITS).then_some(lowest as usize)
     }
 }
 
@@ -179,10 +179,10 @@ fn groups<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
     met: &Met,
 ) -> bool {
     let mut taken = false;
-    each(met.primitives, |lane| {
+    for lane in Bits(met.primitives) {
         let lane = lane & (BLOCK - 1);
         let shape = K::splat(&block.primitive(lane));
-        each(met.groups[lane], |group| {
+        for group in Bits(met.groups[lane]) {
             for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
                 let packet = Packet::of(walk.rays, at);
                 let faces = Faces::new(packet.direction);
@@ -190,8 +190,8 @@ fn groups<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
                     taken |= walk.state.take::<Q, L>(at, t, inside, block.id[lane]);
                 }
             }
-        });
-    });
+        }
+    }
     taken
 }
 
@@ -221,10 +221,8 @@ fn packets<Q: Query, K: Bounded, T: Test<K>, L: Lanes>(
     for at in range.step_by(L::WIDTH) {
         let packet = Packet::<L>::of(walk.rays, at);
         let faces = Faces::new(packet.direction);
-        let mut left = lanes;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize & (BLOCK - 1);
-            left &= left - 1;
+        for lane in Bits(lanes) {
+            let lane = lane & (BLOCK - 1);
             let shape = K::splat(&block.primitive(lane));
             if let Some((t, inside)) = hits::<K, T, L>(test, &shape, variant, &packet, &faces) {
                 taken |= walk.state.take::<Q, L>(at, t, inside, block.id[lane]);
@@ -277,11 +275,9 @@ fn eight_named<Q: Query, K: Bounded>(
 #[inline(always)]
 pub fn take_eight<Q: Query>(walk: &mut Walk, i: usize, t: f32x8, inside: f32x8, ids: &[u32; BLOCK]) -> bool {
     let t = t.to_array();
-    let mut bits = LaneMask::bits(inside);
     let mut taken = false;
-    while bits != 0 {
-        let lane = bits.trailing_zeros() as usize & (BLOCK - 1);
-        bits &= bits - 1;
+    for lane in Bits(LaneMask::bits(inside)) {
+        let lane = lane & (BLOCK - 1);
         // Unused lanes repeat the first.
         if ids[lane] != NONE {
             taken |= walk.state.take::<Q, f32>(i, t[lane], true, ids[lane]);

@@ -3,7 +3,7 @@
 //! Ernst, Mark, *Combining Single and Packet-Ray Tracing for Arbitrary Ray Distributions on the Intel MIC Architecture*,
 //! 2012, §3.)
 
-use super::leaf::{Sixteen, block, each};
+use super::leaf::{Bits, Sixteen, block};
 use super::line::Lines;
 use super::stack::Part;
 use super::walk::Walk;
@@ -92,7 +92,11 @@ impl Walk<'_> {
             self.prefetch.step(LINES);
             let few = part.lanes.count_ones() <= FEW;
             match part.child.kind() {
-                Kind::Node if few => each(part.lanes, |lane| self.single::<Q>(at + lane, part.child)),
+                Kind::Node if few => {
+                    for lane in Bits(part.lanes) {
+                        self.single::<Q>(at + lane, part.child);
+                    }
+                }
                 Kind::Node => self.children::<MIXED>(packet, at, &part),
                 _ => {
                     block::<Q, _>(self, part.child, &Sixteen { at, lanes: part.lanes });

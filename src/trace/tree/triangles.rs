@@ -3,7 +3,7 @@
 
 use super::beams::RAYS;
 use super::behind::Met;
-use super::leaf::{Alone, Leaf, Sixteen, columns, each, take_eight};
+use super::leaf::{Alone, Bits, Leaf, Sixteen, columns, take_eight};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block};
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
@@ -22,7 +22,7 @@ impl Leaf for Triangles {
     fn groups<Q: Query, L: Lanes>(walk: &mut Walk, block: &Block<Self>, sides: Sides, met: &Met) -> bool {
         let mut taken = false;
         let corners = &block.shape.corners;
-        each(met.primitives, |lane| {
+        for lane in Bits(met.primitives) {
             let lane = lane & (BLOCK - 1);
             walk.prefetch.step(LINES);
             let primitive = block.primitive(lane).corners();
@@ -34,7 +34,7 @@ impl Leaf for Triangles {
             // Once for all where all start at one point.
             let first = walk.rays.first_origin();
             let fixed = met.major.filter(|_| walk.rays.common_origin).map(|major| from(Vec3::splat(first), major));
-            each(met.groups[lane], |group| {
+            for group in Bits(met.groups[lane]) {
                 for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
                     let origin = walk.rays.origins::<L>(at);
                     let inside = match (&fixed, met.major) {
@@ -49,8 +49,8 @@ impl Leaf for Triangles {
                     let flat = Flat::of(primitive, origin);
                     taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
                 }
-            });
-        });
+            }
+        }
         taken
     }
 
@@ -58,10 +58,10 @@ impl Leaf for Triangles {
     fn sixteen<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, rays: &Sixteen) -> bool {
         if rays.lanes.count_ones() <= FEW {
             let mut taken = false;
-            each(rays.lanes, |lane| {
+            for lane in Bits(rays.lanes) {
                 let ray = Alone::new(walk, rays.at + lane);
                 taken |= Self::alone::<Q>(walk, block, sides, &ray);
-            });
+            }
             return taken;
         }
         let aim = Aim::new(Vec3::<f32x16>::load(&walk.rays.direction, rays.at));
