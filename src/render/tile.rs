@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::kernel::with_lanes;
 use super::{Camera, Film, Kernel, Tone};
-use crate::math::{BATCH, HitBatch, Lanes, NONE, RayBatch, Vec3};
+use crate::math::{BATCH, HitBatch, Lanes, NONE, RayBatch, Vec3, map2, map3};
 use crate::scene::Scene;
 use crate::shade::{Counts, Observer, Workspace, facing_normal, trace_waves};
 use crate::trace::{Scratch, intersect};
@@ -61,13 +61,13 @@ impl Grid {
     /// pixel (½, ½ is the centre). Rays beyond the picture's edge are inactive.
     pub(crate) fn fill<L: Lanes>(&self, first: [usize; 2], within: [f32; 2], rays: &mut RayBatch) {
         // The tile's own corner and steps, from f64: what is added to it in a tile is small beside it.
-        let [width, height] = [self.width, self.height].map(|n| n as f64);
+        let [width, height] = [self.width as f64, self.height as f64];
         let [step_x, step_y] = [self.camera.across / width, self.camera.down / height];
         let corner = self.camera.corner
             + step_x * (first[0] as f64 + f64::from(within[0]))
             + step_y * (first[1] as f64 + f64::from(within[1]));
-        let [corner, across, down] = [corner, step_x, step_y].map(|v| Vec3::splat(v.as_vec3()));
-        let left = [self.width - first[0], self.height - first[1]].map(|n| L::splat(n as f32));
+        let [corner, across, down] = map3([corner, step_x, step_y], |v| Vec3::splat(v.as_vec3()));
+        let left = map2([self.width - first[0], self.height - first[1]], |n| L::splat(n as f32));
         rays.set_common_origin(self.camera.eye);
         rays.len = BATCH;
         for at in (0..BATCH).step_by(L::WIDTH) {
@@ -243,13 +243,13 @@ fn over_tiles_while<P: Copy + Default + Send>(
 fn put<P: Copy>(tile: &[P; BATCH], strip: &mut [P], width: usize, x0: usize) {
     let height = strip.len() / width;
     // Four rays in a row are four pixels in a row.
-    for (four, place) in tile.chunks_exact(4).zip(PLACE.chunks_exact(4)) {
+    for (four, place) in tile.as_chunks::<4>().0.iter().zip(PLACE.as_chunks::<4>().0) {
         let (x, y) = (x0 + usize::from(place[0][0]), usize::from(place[0][1]));
         if x < width && y < height {
             let inside = 4.min(width - x);
             let row = &mut strip[y * width + x..][..inside];
             match <&mut [P; 4]>::try_from(&mut *row) {
-                Ok(row) => row.copy_from_slice(four),
+                Ok(row) => *row = *four,
                 Err(_) => row.copy_from_slice(&four[..inside]),
             }
         }

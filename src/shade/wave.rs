@@ -67,10 +67,14 @@ impl Wave {
             if C::ALL && plan.absorbs {
                 leaving.tint.store(&mut self.tint, to);
             }
-            if C::ALL && plan.refracts {
-                self.inside[to..to + L::WIDTH].copy_from_slice(&leaving.inside[..L::WIDTH]);
+            let (inside, pixel) = (&leaving.inside[..L::WIDTH], &leaving.pixel[..L::WIDTH]);
+            let to_pixel = &mut self.pixel[to..to + L::WIDTH];
+            for lane in 0..L::WIDTH {
+                if C::ALL && plan.refracts {
+                    self.inside[to + lane] = inside[lane];
+                }
+                to_pixel[lane] = pixel[lane];
             }
-            self.pixel[to..to + L::WIDTH].copy_from_slice(&leaving.pixel[..L::WIDTH]);
             self.rays.len = to + L::WIDTH;
             return 0;
         }

@@ -57,10 +57,16 @@ fn open(description: &Description, options: &Options) -> Result<Window, ViewerEr
 fn display_is_named() -> Result<(), ViewerError> {
     let named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let needed = cfg!(unix) && !cfg!(target_os = "macos");
-    if needed && !["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(named) {
-        return Err(ViewerError::NoDisplay("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
+    let wayland = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(named);
+    if !needed || named("DISPLAY") || (cfg!(feature = "wayland") && wayland) {
+        return Ok(());
     }
-    Ok(())
+    let reason = match (cfg!(feature = "wayland"), wayland) {
+        (true, _) => "neither DISPLAY nor WAYLAND_DISPLAY is set",
+        (false, false) => "DISPLAY is not set",
+        (false, true) => "DISPLAY is not set: on Wayland, start XWayland or build with `--features wayland`",
+    };
+    Err(ViewerError::NoDisplay(reason.to_owned()))
 }
 
 /// Shows a picture, and has the window take in its events.
