@@ -9,6 +9,9 @@ use prefetch_index::prefetch_index;
 /// Bytes of a cache line.
 const LINE: usize = 64;
 
+/// A tree of so many bytes stays in the second-level cache.
+const NEAR: usize = 1 << 19;
+
 /// Lines that are asked for at once; the processor fetches what follows by itself.
 const LINES: usize = 4;
 
@@ -20,12 +23,14 @@ pub struct Places<'a> {
     first: [&'a [u32]; 16],
     /// Numbers from one to the next.
     stride: [usize; 16],
+    /// Whether the tree outgrows the caches.
+    far: bool,
 }
 
 impl<'a> Places<'a> {
     /// Of a tree.
     pub fn of(bvh: &'a Bvh) -> Self {
-        let mut places = Self { first: [&[]; 16], stride: [0; 16] };
+        let mut places = Self { first: [&[]; 16], stride: [0; 16], far: bvh.bytes() > NEAR };
         if let Some(node) = bvh.nodes.first() {
             places.put(Kind::Node, bytemuck::cast_slice(&node.ends[0][0]), size_of::<Node>());
         }
@@ -41,7 +46,7 @@ impl<'a> Places<'a> {
     #[inline(always)]
     pub(crate) fn fetch(&self, node: &Node, mut met: u32) {
         // One alone is next.
-        if met & (met - 1) == 0 {
+        if !self.far || met & (met - 1) == 0 {
             return;
         }
         while met != 0 {
@@ -53,6 +58,9 @@ impl<'a> Places<'a> {
     /// Fetches one child.
     #[inline(always)]
     pub(crate) fn fetch_child(&self, child: Child) {
+        if !self.far {
+            return;
+        }
         let kind = child.number();
         let at = self.stride[kind] * child.index();
         for line in 0..LINES {

@@ -6,10 +6,9 @@ use super::behind::{Behind, Met};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
-use crate::geometry::triangle::Aim;
 use crate::geometry::*;
 use crate::kinds::for_each_kind;
-use crate::math::{LaneMask, Lanes, NONE, Vec3};
+use crate::math::{LaneMask, Lanes, NONE};
 use crate::trace::packet::{Packet, hits};
 use crate::trace::query::Query;
 use std::marker::PhantomData;
@@ -49,23 +48,13 @@ pub struct Alone {
     pub i: usize,
     /// The ray.
     pub packet: Packet<f32x8>,
-    /// The axis of its direction's largest component.
-    pub major: usize,
-    /// The shear of its direction for triangles.
-    pub shear: [f32x8; 2],
 }
 
 impl Alone {
     /// Ray `i`.
     #[inline(always)]
     pub fn new(walk: &Walk, i: usize) -> Self {
-        let [p, q] = walk.state.shear::<f32>(i);
-        Self {
-            i,
-            packet: Packet::splat(walk.rays, i),
-            major: Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, i)),
-            shear: [f32x8::splat(p), f32x8::splat(q)],
-        }
+        Self { i, packet: Packet::splat(walk.rays, i) }
     }
 }
 

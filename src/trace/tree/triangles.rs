@@ -79,11 +79,13 @@ impl Leaf for Triangles {
 
     #[inline(always)]
     fn alone<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, ray: &Alone) -> bool {
-        let from = ray.packet.origin.ordered(ray.major);
+        let major = Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, ray.i));
+        let [p, q] = walk.state.shear::<f32>(ray.i);
+        let from = ray.packet.origin.ordered(major);
         let TriangleShape { corners } = &block.shape;
-        let axis = |k: usize, i: usize| f32x8::from(corners[k][(ray.major + 1 + i) % 3]) - from[i];
+        let axis = |k: usize, i: usize| f32x8::from(corners[k][(major + 1 + i) % 3]) - from[i];
         let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)));
-        let Some(inside) = covers_ordered(&seen, ray.shear) else { return false };
+        let Some(inside) = covers_ordered(&seen, [f32x8::splat(p), f32x8::splat(q)]) else { return false };
         let corners = columns(block).corners();
         let [a, b, c] = map3(corners, |c| c - ray.packet.origin);
         let n = normal(corners);
