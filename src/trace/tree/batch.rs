@@ -1,7 +1,7 @@
 //! A batch's way through the tree: together, in parts, or one by one.
 
 use super::beams::{Beams, Ends, RAYS};
-use super::leaf::Bits;
+use super::bits::Bits;
 use super::state::State;
 use super::walk::Walk;
 use crate::bvh::{Bvh, Places};

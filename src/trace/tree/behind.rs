@@ -2,7 +2,7 @@
 
 use super::beam::Beam;
 use super::beams::Beams;
-use super::leaf::Bits;
+use super::bits::Bits;
 use crate::bvh::BLOCK;
 use crate::math::Vec3;
 use wide::{f32x8, f32x16};

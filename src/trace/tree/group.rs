@@ -3,7 +3,8 @@
 use super::beam::Beam;
 use super::beams::{Beams, RAYS};
 use super::behind::{Group, Groups};
-use super::leaf::{Bits, Together, block};
+use super::bits::Bits;
+use super::leaf::{Together, block};
 use super::stack::Part;
 use super::walk::Walk;
 use crate::bvh::{Child, Kind};

@@ -3,6 +3,7 @@
 
 use super::beams::RAYS;
 use super::behind::{Behind, Met};
+use super::bits::Bits;
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
@@ -129,20 +130,6 @@ impl Visitor for Alone {
             None => K::alone::<Q>(walk, block, variant, self),
             Some(test) => eight_named::<Q, K>(walk, test, block, variant, self),
         }
-    }
-}
-
-/// The places of the bits that are set, from the lowest on.
-#[derive(Clone, Copy)]
-pub struct Bits(pub u32);
-
-impl Iterator for Bits {
-    type Item = usize;
-    #[inline(always)]
-    fn next(&mut self) -> Option<usize> {
-        let lowest = self.0.trailing_zeros();
-        self.0 &= self.0.wrapping_sub(1);
-        (lowest < u32::BITS).then_some(lowest as usize)
     }
 }
 

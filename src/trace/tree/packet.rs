@@ -3,7 +3,8 @@
 //! Ernst, Mark, *Combining Single and Packet-Ray Tracing for Arbitrary Ray Distributions on the Intel MIC Architecture*,
 //! 2012, §3.)
 
-use super::leaf::{Bits, Sixteen, block};
+use super::bits::Bits;
+use super::leaf::{Sixteen, block};
 use super::line::Lines;
 use super::stack::Part;
 use super::walk::Walk;

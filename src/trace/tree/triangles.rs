@@ -3,7 +3,8 @@
 
 use super::beams::RAYS;
 use super::behind::Met;
-use super::leaf::{Alone, Bits, Leaf, Sixteen, columns, take_eight};
+use super::bits::Bits;
+use super::leaf::{Alone, Leaf, Sixteen, columns, take_eight};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block};
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
