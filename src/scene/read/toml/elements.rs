@@ -18,6 +18,12 @@ pub(crate) trait Element: DeserializeOwned {
     fn describe(self, reader: &mut Reader<'_>) -> Result<Self::Kind, Fault>;
 }
 
+/// A kind of primitive that a scene file may hold.
+pub(crate) trait Readable: Sized {
+    /// The arrays of the scene file that it is read from.
+    type Elements: Elements<Kind = Self>;
+}
+
 /// One array of the scene file, or several one after the other, that become primitives of one kind.
 pub(crate) trait Elements: Default {
     /// The kind of primitive that they become.

@@ -7,11 +7,11 @@ use serde::{
     de::{Error, MapAccess, Visitor},
 };
 
-use super::elements::{Elements, Reader};
+use super::elements::{Elements, Readable, Reader};
 use super::materials::MaterialFile;
 use super::view::{CameraFile, LightFile, SettingsFile, SkyFile};
 use crate::kinds::for_each_kind;
-use crate::scene::kinds::{KINDS, Kind, each_kind};
+use crate::scene::kinds::{KINDS, each_kind};
 use crate::scene::read::strict::Table;
 use crate::scene::{Description, Invalid};
 
@@ -32,7 +32,7 @@ macro_rules! primitives {
         /// The primitives of a scene file.
         #[derive(Default)]
         pub(super) struct Primitives {
-            $($($field: <crate::scene::$Kind as Kind>::Elements,)*)*
+            $($($field: <crate::scene::$Kind as Readable>::Elements,)*)*
         }
 
         impl Primitives {
@@ -55,7 +55,7 @@ for_each_kind! { primitives }
 static KEYS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let mut keys = vec!["camera", "settings", "sky", "light", "materials"];
     keys.extend(KINDS.iter().map(|kind| kind.one));
-    for key in each_kind!(|K| <K as Kind>::Elements::keys()).concat() {
+    for key in each_kind!(|K| <K as Readable>::Elements::keys()).concat() {
         if !keys.contains(&key) {
             keys.push(key);
         }
