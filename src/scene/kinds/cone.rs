@@ -71,23 +71,22 @@ impl Kind for Cone {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Cone, Kind};
     use crate::scene::Sides;
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct ConeFile {
-        base: Triple,
-        base_radius: f32,
-        apex: Triple,
-        apex_radius: f32,
-        #[serde(default)]
-        caps: bool,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct ConeFile {
+            base: Vec3,
+            base_radius: f32,
+            apex: Vec3,
+            apex_radius: f32,
+            caps: bool = false,
+            material: Option<String>,
+        }
     }
 
     impl Element for ConeFile {
@@ -96,9 +95,9 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Cone, Fault> {
             Ok(Cone {
-                base: self.base.into(),
+                base: self.base,
                 base_radius: self.base_radius,
-                apex: self.apex.into(),
+                apex: self.apex,
                 apex_radius: self.apex_radius,
                 caps: self.caps,
                 sides: Sides::Both,

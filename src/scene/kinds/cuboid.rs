@@ -62,19 +62,18 @@ impl Kind for Cuboid {
 #[cfg(feature = "files")]
 mod table {
     use glam::Vec3;
-    use serde::Deserialize;
 
     use super::{Cuboid, Kind};
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct BoxFile {
-        min: Triple,
-        max: Triple,
-        rotation: Option<Triple>,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct BoxFile {
+            min: Vec3,
+            max: Vec3,
+            rotation: Option<Vec3>,
+            material: Option<String>,
+        }
     }
 
     impl Element for BoxFile {
@@ -82,9 +81,9 @@ mod table {
         const KEY: &'static str = Cuboid::KEY;
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Cuboid, Fault> {
-            let rotation = self.rotation.map(Vec3::from).unwrap_or_default();
+            let rotation = self.rotation.unwrap_or_default();
             let material = reader.material(self.material)?;
-            Ok(Cuboid { min: self.min.into(), max: self.max.into(), rotation, material })
+            Ok(Cuboid { min: self.min, max: self.max, rotation, material })
         }
     }
 

@@ -66,22 +66,21 @@ impl Kind for Cylinder {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Cylinder, Kind};
     use crate::scene::Sides;
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct CylinderFile {
-        base: Triple,
-        apex: Triple,
-        radius: f32,
-        #[serde(default)]
-        caps: bool,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct CylinderFile {
+            base: Vec3,
+            apex: Vec3,
+            radius: f32,
+            caps: bool = false,
+            material: Option<String>,
+        }
     }
 
     impl Element for CylinderFile {
@@ -90,7 +89,7 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Cylinder, Fault> {
             let material = reader.material(self.material)?;
-            let (base, apex) = (self.base.into(), self.apex.into());
+            let (base, apex) = (self.base, self.apex);
             Ok(Cylinder { base, apex, radius: self.radius, caps: self.caps, sides: Sides::Both, material })
         }
     }

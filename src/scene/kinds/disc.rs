@@ -67,21 +67,20 @@ impl Kind for Disc {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Disc, Kind};
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct DiscFile {
-        center: Triple,
-        normal: Triple,
-        radius: f32,
-        #[serde(default)]
-        inner_radius: f32,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct DiscFile {
+            center: Vec3,
+            normal: Vec3,
+            radius: f32,
+            inner_radius: f32 = 0.0,
+            material: Option<String>,
+        }
     }
 
     impl Element for DiscFile {
@@ -90,7 +89,7 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Disc, Fault> {
             let material = reader.material(self.material)?;
-            let (center, normal) = (self.center.into(), self.normal.into());
+            let (center, normal) = (self.center, self.normal);
             Ok(Disc { center, normal, radius: self.radius, inner_radius: self.inner_radius, material })
         }
     }

@@ -66,19 +66,19 @@ impl Kind for Fractal {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Fractal, Kind};
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct FractalFile {
-        center: Triple,
-        radius: f32,
-        iterations: u32,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct FractalFile {
+            center: Vec3,
+            radius: f32,
+            iterations: u32,
+            material: Option<String>,
+        }
     }
 
     impl Element for FractalFile {
@@ -87,7 +87,7 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Fractal, Fault> {
             let material = reader.material(self.material)?;
-            Ok(Fractal { center: self.center.into(), radius: self.radius, iterations: self.iterations, material })
+            Ok(Fractal { center: self.center, radius: self.radius, iterations: self.iterations, material })
         }
     }
 

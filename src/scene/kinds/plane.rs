@@ -52,18 +52,18 @@ impl Kind for Plane {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Kind, Plane};
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct PlaneFile {
-        normal: Triple,
-        distance: f32,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct PlaneFile {
+            normal: Vec3,
+            distance: f32,
+            material: Option<String>,
+        }
     }
 
     impl Element for PlaneFile {
@@ -71,7 +71,7 @@ mod table {
         const KEY: &'static str = Plane::KEY;
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Plane, Fault> {
-            Ok(Plane { normal: self.normal.into(), distance: self.distance, material: reader.material(self.material)? })
+            Ok(Plane { normal: self.normal, distance: self.distance, material: reader.material(self.material)? })
         }
     }
 

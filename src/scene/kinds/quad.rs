@@ -57,19 +57,19 @@ impl Kind for Quad {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Kind, Quad};
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct QuadFile {
-        corner: Triple,
-        u: Triple,
-        v: Triple,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct QuadFile {
+            corner: Vec3,
+            u: Vec3,
+            v: Vec3,
+            material: Option<String>,
+        }
     }
 
     impl Element for QuadFile {
@@ -78,7 +78,7 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Quad, Fault> {
             let material = reader.material(self.material)?;
-            Ok(Quad { corner: self.corner.into(), u: self.u.into(), v: self.v.into(), material })
+            Ok(Quad { corner: self.corner, u: self.u, v: self.v, material })
         }
     }
 

@@ -72,19 +72,19 @@ impl Kind for Sphere {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Kind, Sphere};
     use crate::scene::Sides;
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct SphereFile {
-        center: Triple,
-        radius: f32,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct SphereFile {
+            center: Vec3,
+            radius: f32,
+            material: Option<String>,
+        }
     }
 
     impl Element for SphereFile {
@@ -93,7 +93,7 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Sphere, Fault> {
             let material = reader.material(self.material)?;
-            Ok(Sphere { center: self.center.into(), radius: self.radius, sides: Sides::Both, material })
+            Ok(Sphere { center: self.center, radius: self.radius, sides: Sides::Both, material })
         }
     }
 

@@ -72,20 +72,20 @@ impl Kind for Torus {
 /// How a scene file holds it.
 #[cfg(feature = "files")]
 mod table {
-    use serde::Deserialize;
+    use glam::Vec3;
 
     use super::{Kind, Torus};
-    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
 
-    /// Its table.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct TorusFile {
-        center: Triple,
-        axis: Triple,
-        major_radius: f32,
-        minor_radius: f32,
-        material: Option<String>,
+    table! {
+        /// Its table.
+        pub(crate) struct TorusFile {
+            center: Vec3,
+            axis: Vec3,
+            major_radius: f32,
+            minor_radius: f32,
+            material: Option<String>,
+        }
     }
 
     impl Element for TorusFile {
@@ -94,8 +94,8 @@ mod table {
 
         fn describe(self, reader: &mut Reader<'_>) -> Result<Torus, Fault> {
             Ok(Torus {
-                center: self.center.into(),
-                axis: self.axis.into(),
+                center: self.center,
+                axis: self.axis,
                 major_radius: self.major_radius,
                 minor_radius: self.minor_radius,
                 material: reader.material(self.material)?,

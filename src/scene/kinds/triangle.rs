@@ -142,22 +142,21 @@ mod table {
     use std::path::Path;
 
     use glam::{Vec2, Vec3};
-    use serde::Deserialize;
 
     use super::{Kind, Mesh};
     use crate::scene::Material;
-    use crate::scene::read::toml::elements::{Array, Element, Exactly, Fault, Readable, Reader, Triple};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
     use crate::scene::rules::{area, vertex};
 
-    /// The table of a mesh file, and where it goes.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct MeshFile {
-        file: String,
-        scale: Option<f32>,
-        rotation: Option<Triple>,
-        translation: Option<Triple>,
-        material: Option<String>,
+    table! {
+        /// The table of a mesh file, and where it goes.
+        pub(crate) struct MeshFile {
+            file: String,
+            scale: Option<f32>,
+            rotation: Option<Vec3>,
+            translation: Option<Vec3>,
+            material: Option<String>,
+        }
     }
 
     impl Element for MeshFile {
@@ -182,20 +181,20 @@ mod table {
     fn put(
         mesh: &mut Mesh,
         scale: Option<f32>,
-        rotation: Option<Triple>,
-        translation: Option<Triple>,
+        rotation: Option<Vec3>,
+        translation: Option<Vec3>,
     ) -> Result<(), Fault> {
         let scale = f64::from(scale.unwrap_or(1.0));
         if !(scale > 0.0 && scale.is_finite()) {
             return Err(Fault("scale", format!("must be above 0 and finite, got {scale}")));
         }
-        let degrees = rotation.map(Vec3::from).unwrap_or_default();
+        let degrees = rotation.unwrap_or_default();
         if !degrees.is_finite() {
             return Err(Fault("rotation", "must be finite".into()));
         }
         let [x, y, z] = degrees.as_dvec3().to_array().map(f64::to_radians);
         let turn = glam::DMat3::from_rotation_z(z) * glam::DMat3::from_rotation_y(y) * glam::DMat3::from_rotation_x(x);
-        let to = translation.map(Vec3::from).unwrap_or_default().as_dvec3();
+        let to = translation.unwrap_or_default().as_dvec3();
         for p in &mut mesh.positions {
             *p = (turn * (p.as_dvec3() * scale) + to).as_vec3();
             vertex(*p).map_err(|problem| Fault("translation", format!("a vertex {problem}")))?;
@@ -206,14 +205,14 @@ mod table {
         Ok(())
     }
 
-    /// The table of a single triangle.
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(crate) struct TriangleFile {
-        vertices: Exactly<Triple, 3>,
-        normals: Option<Exactly<Triple, 3>>,
-        uvs: Option<Exactly<Exactly<f32, 2>, 3>>,
-        material: Option<String>,
+    table! {
+        /// The table of a single triangle.
+        pub(crate) struct TriangleFile {
+            vertices: [Vec3; 3],
+            normals: Option<[Vec3; 3]>,
+            uvs: Option<[Vec2; 3]>,
+            material: Option<String>,
+        }
     }
 
     impl Element for TriangleFile {
@@ -222,7 +221,7 @@ mod table {
 
         /// A mesh of one.
         fn describe(self, reader: &mut Reader<'_>) -> Result<Mesh, Fault> {
-            let corners = self.vertices.0.map(Vec3::from);
+            let corners = self.vertices;
             let [a, b, c] = corners;
             corners
                 .into_iter()
@@ -231,8 +230,8 @@ mod table {
                 .map_err(|problem| Fault("vertices", problem))?;
             Ok(Mesh {
                 positions: corners.into(),
-                normals: self.normals.map(|n| n.0.map(Vec3::from).into()).unwrap_or_default(),
-                uvs: self.uvs.map(|uvs| uvs.0.map(|uv| Vec2::from(uv.0)).into()).unwrap_or_default(),
+                normals: self.normals.map(Vec::from).unwrap_or_default(),
+                uvs: self.uvs.map(Vec::from).unwrap_or_default(),
                 triangles: vec![[0, 1, 2]],
                 material: reader.material(self.material)?,
                 ..Mesh::default()
