@@ -86,6 +86,7 @@
 pub use {glam, wide};
 
 pub mod bvh;
+#[cfg(feature = "files")]
 pub mod files;
 pub mod geometry;
 mod kinds;

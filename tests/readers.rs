@@ -360,7 +360,16 @@ fn wrong_types() {
         "camera.fov = 99999999999999999999",
         "s.toml:1: camera.fov: invalid type: integer `99999999999999999999` as i128, expected a number",
     );
-    fault("camera.fov = 1979-05-27", "s.toml:1: camera.fov: invalid type: map, expected a number");
+    fault(
+        "camera.fov = 0x1_0000_0000_0000_0000",
+        "s.toml:1: camera.fov: invalid type: integer `18446744073709551616` as i128, expected a number",
+    );
+    fault(
+        "settings.max_depth = 2.0",
+        "s.toml:1: settings.max_depth: invalid type: floating point `2.0`, expected a whole number",
+    );
+    fault("camera.fov = 1979-05-27", "s.toml:1: camera.fov: invalid type: date, expected a number");
+    fault("camera = 1979-05-27", "s.toml:1: camera: invalid type: date, expected a table");
     fault("materials = 1", "s.toml:1: materials: invalid type: integer `1`, expected a table");
     fault("materials.a = 1", "s.toml:1: materials.a: invalid type: integer `1`, expected a table");
     fault(

@@ -1,5 +1,6 @@
 //! From a compiled scene and a camera to an image: tiles in parallel on the caller's rayon pool.
 
+#[cfg(feature = "files")]
 pub mod output;
 
 mod camera;

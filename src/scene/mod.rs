@@ -1,4 +1,5 @@
 //! From what the user wrote ([`Description`]) to what is traced ([`Scene`]).
+#[cfg(feature = "files")]
 mod builtin;
 mod check;
 mod choose;
@@ -8,9 +9,11 @@ mod description;
 mod in_tree;
 mod kinds;
 mod plan;
+#[cfg(feature = "files")]
 mod read;
 mod rules;
 
+#[cfg(feature = "files")]
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
@@ -18,6 +21,7 @@ pub use compile::{CompileOptions, First, Medium, Scene, compile, compile_with};
 pub use description::*;
 pub use kinds::*;
 pub use plan::{Plan, ShadowStart, Structure, Tested};
+#[cfg(feature = "files")]
 pub use read::*;
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.

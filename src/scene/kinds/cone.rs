@@ -1,12 +1,10 @@
 //! Cones and frusta, open or capped.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cones;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, axis, end_radius, place, require};
 use crate::scene::{Invalid, Sides};
 
@@ -31,43 +29,12 @@ pub struct Cone {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConeFile {
-    base: Triple,
-    base_radius: f32,
-    apex: Triple,
-    apex_radius: f32,
-    #[serde(default)]
-    caps: bool,
-    material: Option<String>,
-}
-
-impl Element for ConeFile {
-    type Kind = Cone;
-    const KEY: &'static str = Cone::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Cone, Fault> {
-        Ok(Cone {
-            base: self.base.into(),
-            base_radius: self.base_radius,
-            apex: self.apex.into(),
-            apex_radius: self.apex_radius,
-            caps: self.caps,
-            sides: Sides::Both,
-            material: reader.material(self.material)?,
-        })
-    }
-}
-
 impl Kind for Cone {
     const NAME: KindName = KindName {
         one: "cone",
         many: "cones",
         method: "method `stable`, in the cone's own product, so that its tip and slant do not cancel",
     };
-    type Elements = Array<ConeFile>;
     type Storage = Cones;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -98,5 +65,48 @@ impl Kind for Cone {
     fn bounds(of: &Cones, i: usize) -> Option<Aabb> {
         let [min, max] = of.bounds(i);
         Some(Aabb { min, max })
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Cone, Kind};
+    use crate::scene::Sides;
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct ConeFile {
+            base: Vec3,
+            base_radius: f32,
+            apex: Vec3,
+            apex_radius: f32,
+            caps: bool = false,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for ConeFile {
+        type Kind = Cone;
+        const KEY: &'static str = Cone::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Cone, Fault> {
+            Ok(Cone {
+                base: self.base,
+                base_radius: self.base_radius,
+                apex: self.apex,
+                apex_radius: self.apex_radius,
+                caps: self.caps,
+                sides: Sides::Both,
+                material: reader.material(self.material)?,
+            })
+        }
+    }
+
+    impl Readable for Cone {
+        type Elements = Array<ConeFile>;
     }
 }

@@ -1,13 +1,11 @@
 //! Boxes, aligned to the axes or turned.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cuboids;
 use crate::scene::Invalid;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, MIN_RADIUS, angles, place, require, triple};
 
 /// A box, seen from outside and inside.
@@ -28,31 +26,9 @@ pub struct Cuboid {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct BoxFile {
-    min: Triple,
-    max: Triple,
-    rotation: Option<Triple>,
-    material: Option<String>,
-}
-
-impl Element for BoxFile {
-    type Kind = Cuboid;
-    const KEY: &'static str = Cuboid::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Cuboid, Fault> {
-        let rotation = self.rotation.map(Vec3::from).unwrap_or_default();
-        let material = reader.material(self.material)?;
-        Ok(Cuboid { min: self.min.into(), max: self.max.into(), rotation, material })
-    }
-}
-
 impl Kind for Cuboid {
     const NAME: KindName =
         KindName { one: "box", many: "boxes", method: "method `slabs`: no ray slips through an edge or corner" };
-    type Elements = Array<BoxFile>;
     type Storage = Cuboids;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -79,5 +55,39 @@ impl Kind for Cuboid {
     fn bounds(of: &Cuboids, i: usize) -> Option<Aabb> {
         let [min, max] = of.bounds(i);
         Some(Aabb { min, max })
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Cuboid, Kind};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct BoxFile {
+            min: Vec3,
+            max: Vec3,
+            rotation: Option<Vec3>,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for BoxFile {
+        type Kind = Cuboid;
+        const KEY: &'static str = Cuboid::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Cuboid, Fault> {
+            let rotation = self.rotation.unwrap_or_default();
+            let material = reader.material(self.material)?;
+            Ok(Cuboid { min: self.min, max: self.max, rotation, material })
+        }
+    }
+
+    impl Readable for Cuboid {
+        type Elements = Array<BoxFile>;
     }
 }

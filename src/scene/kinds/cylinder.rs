@@ -1,12 +1,10 @@
 //! Cylinders, open or capped.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Cylinders;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, axis, place, size};
 use crate::scene::{Invalid, Sides};
 
@@ -31,36 +29,12 @@ pub struct Cylinder {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct CylinderFile {
-    base: Triple,
-    apex: Triple,
-    radius: f32,
-    #[serde(default)]
-    caps: bool,
-    material: Option<String>,
-}
-
-impl Element for CylinderFile {
-    type Kind = Cylinder;
-    const KEY: &'static str = Cylinder::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Cylinder, Fault> {
-        let material = reader.material(self.material)?;
-        let (base, apex) = (self.base.into(), self.apex.into());
-        Ok(Cylinder { base, apex, radius: self.radius, caps: self.caps, sides: Sides::Both, material })
-    }
-}
-
 impl Kind for Cylinder {
     const NAME: KindName = KindName {
         one: "cylinder",
         many: "cylinders",
         method: "method `stable`; a closed one is an endless one within a slab, without cracks",
     };
-    type Elements = Array<CylinderFile>;
     type Storage = Cylinders;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -86,5 +60,41 @@ impl Kind for Cylinder {
     fn bounds(of: &Cylinders, i: usize) -> Option<Aabb> {
         let [min, max] = of.bounds(i);
         Some(Aabb { min, max })
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Cylinder, Kind};
+    use crate::scene::Sides;
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct CylinderFile {
+            base: Vec3,
+            apex: Vec3,
+            radius: f32,
+            caps: bool = false,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for CylinderFile {
+        type Kind = Cylinder;
+        const KEY: &'static str = Cylinder::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Cylinder, Fault> {
+            let material = reader.material(self.material)?;
+            let (base, apex) = (self.base, self.apex);
+            Ok(Cylinder { base, apex, radius: self.radius, caps: self.caps, sides: Sides::Both, material })
+        }
+    }
+
+    impl Readable for Cylinder {
+        type Elements = Array<CylinderFile>;
     }
 }

@@ -1,13 +1,11 @@
 //! Discs, with or without a hole.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::{Discs, frame};
 use crate::scene::Invalid;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, direction, place, require, size};
 
 /// A flat disc about `center`, across `normal`; a ring where `inner_radius` is above 0. Seen from both sides. The front
@@ -30,36 +28,12 @@ pub struct Disc {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DiscFile {
-    center: Triple,
-    normal: Triple,
-    radius: f32,
-    #[serde(default)]
-    inner_radius: f32,
-    material: Option<String>,
-}
-
-impl Element for DiscFile {
-    type Kind = Disc;
-    const KEY: &'static str = Disc::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Disc, Fault> {
-        let material = reader.material(self.material)?;
-        let (center, normal) = (self.center.into(), self.normal.into());
-        Ok(Disc { center, normal, radius: self.radius, inner_radius: self.inner_radius, material })
-    }
-}
-
 impl Kind for Disc {
     const NAME: KindName = KindName {
         one: "disc",
         many: "discs",
         method: "method `planar`: where the ray meets the plane, by the distance from the centre",
     };
-    type Elements = Array<DiscFile>;
     type Storage = Discs;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -87,5 +61,40 @@ impl Kind for Disc {
     fn bounds(of: &Discs, i: usize) -> Option<Aabb> {
         let [min, max] = of.bounds(i);
         Some(Aabb { min, max })
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Disc, Kind};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct DiscFile {
+            center: Vec3,
+            normal: Vec3,
+            radius: f32,
+            inner_radius: f32 = 0.0,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for DiscFile {
+        type Kind = Disc;
+        const KEY: &'static str = Disc::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Disc, Fault> {
+            let material = reader.material(self.material)?;
+            let (center, normal) = (self.center, self.normal);
+            Ok(Disc { center, normal, radius: self.radius, inner_radius: self.inner_radius, material })
+        }
+    }
+
+    impl Readable for Disc {
+        type Elements = Array<DiscFile>;
     }
 }

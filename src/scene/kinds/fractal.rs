@@ -1,13 +1,11 @@
 //! Menger sponges.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Fractals;
 use crate::scene::Invalid;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, place, require, size};
 
 /// The most iterations of a fractal: its smallest cubes are 3⁻⁸ of the whole, some thousand ε.
@@ -30,33 +28,12 @@ pub struct Fractal {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FractalFile {
-    center: Triple,
-    radius: f32,
-    iterations: u32,
-    material: Option<String>,
-}
-
-impl Element for FractalFile {
-    type Kind = Fractal;
-    const KEY: &'static str = Fractal::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Fractal, Fault> {
-        let material = reader.material(self.material)?;
-        Ok(Fractal { center: self.center.into(), radius: self.radius, iterations: self.iterations, material })
-    }
-}
-
 impl Kind for Fractal {
     const NAME: KindName = KindName {
         one: "fractal",
         many: "fractals",
         method: "method `sphere_trace`, in steps that end on the grid's planes",
     };
-    type Elements = Array<FractalFile>;
     type Storage = Fractals;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -83,5 +60,38 @@ impl Kind for Fractal {
     fn bounds(of: &Fractals, i: usize) -> Option<Aabb> {
         let [min, max] = of.bounds(i);
         Some(Aabb { min, max })
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Fractal, Kind};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct FractalFile {
+            center: Vec3,
+            radius: f32,
+            iterations: u32,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for FractalFile {
+        type Kind = Fractal;
+        const KEY: &'static str = Fractal::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Fractal, Fault> {
+            let material = reader.material(self.material)?;
+            Ok(Fractal { center: self.center, radius: self.radius, iterations: self.iterations, material })
+        }
+    }
+
+    impl Readable for Fractal {
+        type Elements = Array<FractalFile>;
     }
 }

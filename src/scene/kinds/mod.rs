@@ -1,7 +1,8 @@
 //! A file a kind of primitive, with all that the description's side knows of it: what the user writes, its TOML table,
 //! its rules, and what it means to the plan.
 //!
-//! A new kind is a row in `src/kinds.rs`, a file here with its description and its [`Kind`], and its module below.
+//! A new kind is a row in `src/kinds.rs`, a file here with its description, its [`Kind`] and its table, and its module
+//! below.
 
 mod cone;
 mod cuboid;
@@ -16,7 +17,6 @@ mod triangle;
 
 use glam::Vec3;
 
-use super::read::toml::elements::Elements;
 use super::rules::At;
 use super::{Description, Invalid, Plan, Sides};
 use crate::bvh::Aabb;
@@ -44,8 +44,6 @@ pub(crate) trait Kind: Sized {
     const WEIGHT: usize = 4;
     /// Whether scenes of nothing rarer have kernels of their own, that test it.
     const PLAIN: bool = false;
-    /// The arrays of the scene file that it is read from.
-    type Elements: Elements<Kind = Self>;
     /// The arrays that it is traced from.
     type Storage: Default;
 

@@ -1,13 +1,11 @@
 //! Planes without an end.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Planes;
 use crate::scene::Invalid;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, direction, offset};
 
 /// An infinite plane: the points p with p·normal + distance = 0. Seen from both sides.
@@ -24,30 +22,11 @@ pub struct Plane {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct PlaneFile {
-    normal: Triple,
-    distance: f32,
-    material: Option<String>,
-}
-
-impl Element for PlaneFile {
-    type Kind = Plane;
-    const KEY: &'static str = Plane::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Plane, Fault> {
-        Ok(Plane { normal: self.normal.into(), distance: self.distance, material: reader.material(self.material)? })
-    }
-}
-
 impl Kind for Plane {
     const NAME: KindName =
         KindName { one: "plane", many: "planes", method: "unbounded; left out where no ray of a batch turns to it" };
     const WEIGHT: usize = 0;
     const PLAIN: bool = true;
-    type Elements = Array<PlaneFile>;
     type Storage = Planes;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -67,5 +46,36 @@ impl Kind for Plane {
     }
     fn bounds(_: &Planes, _: usize) -> Option<Aabb> {
         None
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Kind, Plane};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct PlaneFile {
+            normal: Vec3,
+            distance: f32,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for PlaneFile {
+        type Kind = Plane;
+        const KEY: &'static str = Plane::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Plane, Fault> {
+            Ok(Plane { normal: self.normal, distance: self.distance, material: reader.material(self.material)? })
+        }
+    }
+
+    impl Readable for Plane {
+        type Elements = Array<PlaneFile>;
     }
 }

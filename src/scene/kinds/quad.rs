@@ -1,13 +1,11 @@
 //! Parallelograms.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName, triangle_near};
 use crate::bvh::Aabb;
 use crate::geometry::Quads;
 use crate::scene::Invalid;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, area, place};
 
 /// The parallelogram of the points corner + a u + b v, a and b from 0 to 1; seen from both sides. The front is where
@@ -26,30 +24,9 @@ pub struct Quad {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct QuadFile {
-    corner: Triple,
-    u: Triple,
-    v: Triple,
-    material: Option<String>,
-}
-
-impl Element for QuadFile {
-    type Kind = Quad;
-    const KEY: &'static str = Quad::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Quad, Fault> {
-        let material = reader.material(self.material)?;
-        Ok(Quad { corner: self.corner.into(), u: self.u.into(), v: self.v.into(), material })
-    }
-}
-
 impl Kind for Quad {
     const NAME: KindName =
         KindName { one: "quad", many: "quads", method: "method `moller_trumbore`, as nothing shares their edges" };
-    type Elements = Array<QuadFile>;
     type Storage = Quads;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -74,5 +51,38 @@ impl Kind for Quad {
     fn bounds(of: &Quads, i: usize) -> Option<Aabb> {
         let [min, max] = of.bounds(i);
         Some(Aabb { min, max })
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Kind, Quad};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct QuadFile {
+            corner: Vec3,
+            u: Vec3,
+            v: Vec3,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for QuadFile {
+        type Kind = Quad;
+        const KEY: &'static str = Quad::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Quad, Fault> {
+            let material = reader.material(self.material)?;
+            Ok(Quad { corner: self.corner, u: self.u, v: self.v, material })
+        }
+    }
+
+    impl Readable for Quad {
+        type Elements = Array<QuadFile>;
     }
 }

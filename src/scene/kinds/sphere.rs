@@ -1,13 +1,11 @@
 //! Spheres.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Spheres;
 use crate::geometry::methods::{Methods, SphereMethod};
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, length, point};
 use crate::scene::{Invalid, Plan, Sides};
 
@@ -27,25 +25,6 @@ pub struct Sphere {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SphereFile {
-    center: Triple,
-    radius: f32,
-    material: Option<String>,
-}
-
-impl Element for SphereFile {
-    type Kind = Sphere;
-    const KEY: &'static str = Sphere::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Sphere, Fault> {
-        let material = reader.material(self.material)?;
-        Ok(Sphere { center: self.center.into(), radius: self.radius, sides: Sides::Both, material })
-    }
-}
-
 impl Kind for Sphere {
     const NAME: KindName = KindName {
         one: "sphere",
@@ -54,7 +33,6 @@ impl Kind for Sphere {
     };
     const WEIGHT: usize = 1;
     const PLAIN: bool = true;
-    type Elements = Array<SphereFile>;
     type Storage = Spheres;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -88,5 +66,38 @@ impl Kind for Sphere {
     }
     fn reason(plan: &Plan) -> Option<&str> {
         Some(&plan.why)
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Kind, Sphere};
+    use crate::scene::Sides;
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct SphereFile {
+            center: Vec3,
+            radius: f32,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for SphereFile {
+        type Kind = Sphere;
+        const KEY: &'static str = Sphere::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Sphere, Fault> {
+            let material = reader.material(self.material)?;
+            Ok(Sphere { center: self.center, radius: self.radius, sides: Sides::Both, material })
+        }
+    }
+
+    impl Readable for Sphere {
+        type Elements = Array<SphereFile>;
     }
 }

@@ -1,14 +1,12 @@
 //! Tori.
 
 use glam::Vec3;
-use serde::Deserialize;
 
 use super::{Kind, KindName};
 use crate::bvh::Aabb;
 use crate::geometry::Tori;
 use crate::geometry::methods::{Methods, TorusMethod};
 use crate::scene::Invalid;
-use crate::scene::read::toml::elements::{Array, Element, Fault, Reader, Triple};
 use crate::scene::rules::{At, direction, place, require, size};
 
 /// A torus: the points at `minor_radius` from the circle of `major_radius` about `center`, across `axis`. Seen from
@@ -31,39 +29,12 @@ pub struct Torus {
     pub material: usize,
 }
 
-/// Its table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct TorusFile {
-    center: Triple,
-    axis: Triple,
-    major_radius: f32,
-    minor_radius: f32,
-    material: Option<String>,
-}
-
-impl Element for TorusFile {
-    type Kind = Torus;
-    const KEY: &'static str = Torus::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Torus, Fault> {
-        Ok(Torus {
-            center: self.center.into(),
-            axis: self.axis.into(),
-            major_radius: self.major_radius,
-            minor_radius: self.minor_radius,
-            material: reader.material(self.material)?,
-        })
-    }
-}
-
 impl Kind for Torus {
     const NAME: KindName = KindName {
         one: "torus",
         many: "tori",
         method: "method `monotone_newton`, which loses no root that stands clear of rounding",
     };
-    type Elements = Array<TorusFile>;
     type Storage = Tori;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -95,5 +66,44 @@ impl Kind for Torus {
 
     fn other_method(methods: &Methods) -> Option<&'static str> {
         (methods.torus != TorusMethod::default()).then(|| methods.torus.name())
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use glam::Vec3;
+
+    use super::{Kind, Torus};
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+
+    table! {
+        /// Its table.
+        pub(crate) struct TorusFile {
+            center: Vec3,
+            axis: Vec3,
+            major_radius: f32,
+            minor_radius: f32,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for TorusFile {
+        type Kind = Torus;
+        const KEY: &'static str = Torus::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Torus, Fault> {
+            Ok(Torus {
+                center: self.center,
+                axis: self.axis,
+                major_radius: self.major_radius,
+                minor_radius: self.minor_radius,
+                material: reader.material(self.material)?,
+            })
+        }
+    }
+
+    impl Readable for Torus {
+        type Elements = Array<TorusFile>;
     }
 }

@@ -1,17 +1,13 @@
 //! Triangles: meshes of them, from files, and single ones.
 
-use std::path::Path;
-
 use glam::{Vec2, Vec3};
-use serde::Deserialize;
 
 use super::{Kind, KindName, triangle_near};
 use crate::bvh::Aabb;
 use crate::geometry::methods::{Methods, TriangleMethod};
 use crate::geometry::{Primitives, Triangles};
-use crate::scene::read::toml::elements::{Array, Element, Exactly, Fault, Reader, Triple};
-use crate::scene::rules::{At, area, direction, require, vertex};
-use crate::scene::{Invalid, Material, Sides};
+use crate::scene::rules::{At, direction, require, vertex};
+use crate::scene::{Invalid, Sides};
 
 /// Triangles that share vertices; the front is where the corners run counter-clockwise.
 ///
@@ -38,97 +34,6 @@ pub struct Mesh {
     pub material: usize,
 }
 
-/// The table of a mesh file, and where it goes.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct MeshFile {
-    file: String,
-    scale: Option<f32>,
-    rotation: Option<Triple>,
-    translation: Option<Triple>,
-    material: Option<String>,
-}
-
-impl Element for MeshFile {
-    type Kind = Mesh;
-    const KEY: &'static str = Mesh::KEY;
-
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Mesh, Fault> {
-        let material = self.material.map(|name| reader.material(Some(name))).transpose()?;
-        // Materials that count for nothing need not be there.
-        let mut model = reader.model(&self.file, material.is_none()).map_err(|problem| Fault("file", problem))?;
-        put(&mut model.mesh, self.scale, self.rotation, self.translation)?;
-        if let Some(material) = material {
-            return Ok(Mesh { material, ..model.mesh });
-        }
-        let default = if model.bare { reader.material(None)? } else { 0 };
-        let file = Path::new(&self.file).file_name().unwrap_or_default().to_string_lossy();
-        Ok(model.merge(default, |m| reader.add(Material { name: format!("{file}:{}", m.name), ..m })))
-    }
-}
-
-/// Scales, then turns about x, y and z, then moves.
-fn put(
-    mesh: &mut Mesh,
-    scale: Option<f32>,
-    rotation: Option<Triple>,
-    translation: Option<Triple>,
-) -> Result<(), Fault> {
-    let scale = f64::from(scale.unwrap_or(1.0));
-    if !(scale > 0.0 && scale.is_finite()) {
-        return Err(Fault("scale", format!("must be above 0 and finite, got {scale}")));
-    }
-    let degrees = rotation.map(Vec3::from).unwrap_or_default();
-    if !degrees.is_finite() {
-        return Err(Fault("rotation", "must be finite".into()));
-    }
-    let [x, y, z] = degrees.as_dvec3().to_array().map(f64::to_radians);
-    let turn = glam::DMat3::from_rotation_z(z) * glam::DMat3::from_rotation_y(y) * glam::DMat3::from_rotation_x(x);
-    let to = translation.map(Vec3::from).unwrap_or_default().as_dvec3();
-    for p in &mut mesh.positions {
-        *p = (turn * (p.as_dvec3() * scale) + to).as_vec3();
-        vertex(*p).map_err(|problem| Fault("translation", format!("a vertex {problem}")))?;
-    }
-    for n in &mut mesh.normals {
-        *n = (turn * n.as_dvec3()).as_vec3();
-    }
-    Ok(())
-}
-
-/// The table of a single triangle.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct TriangleFile {
-    vertices: Exactly<Triple, 3>,
-    normals: Option<Exactly<Triple, 3>>,
-    uvs: Option<Exactly<Exactly<f32, 2>, 3>>,
-    material: Option<String>,
-}
-
-impl Element for TriangleFile {
-    type Kind = Mesh;
-    const KEY: &'static str = Mesh::NAME.one;
-
-    /// A mesh of one.
-    fn describe(self, reader: &mut Reader<'_>) -> Result<Mesh, Fault> {
-        let corners = self.vertices.0.map(Vec3::from);
-        let [a, b, c] = corners;
-        corners
-            .into_iter()
-            .try_for_each(vertex)
-            .and_then(|()| area(b - a, c - a))
-            .map_err(|problem| Fault("vertices", problem))?;
-        Ok(Mesh {
-            positions: corners.into(),
-            normals: self.normals.map(|n| n.0.map(Vec3::from).into()).unwrap_or_default(),
-            uvs: self.uvs.map(|uvs| uvs.0.map(|uv| Vec2::from(uv.0)).into()).unwrap_or_default(),
-            triangles: vec![[0, 1, 2]],
-            material: reader.material(self.material)?,
-            ..Mesh::default()
-        })
-    }
-}
-
 impl Kind for Mesh {
     const NAME: KindName = KindName {
         one: "triangle",
@@ -137,7 +42,6 @@ impl Kind for Mesh {
     };
     const KEY: &'static str = "mesh";
     const PLAIN: bool = true;
-    type Elements = (Array<MeshFile>, Array<TriangleFile>);
     type Storage = Triangles;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {
@@ -229,5 +133,113 @@ impl Mesh {
             }
         }
         Ok(())
+    }
+}
+
+/// How a scene file holds it.
+#[cfg(feature = "files")]
+mod table {
+    use std::path::Path;
+
+    use glam::{Vec2, Vec3};
+
+    use super::{Kind, Mesh};
+    use crate::scene::Material;
+    use crate::scene::read::toml::elements::{Array, Element, Fault, Readable, Reader, table};
+    use crate::scene::rules::{area, vertex};
+
+    table! {
+        /// The table of a mesh file, and where it goes.
+        pub(crate) struct MeshFile {
+            file: String,
+            scale: Option<f32>,
+            rotation: Option<Vec3>,
+            translation: Option<Vec3>,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for MeshFile {
+        type Kind = Mesh;
+        const KEY: &'static str = Mesh::KEY;
+
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Mesh, Fault> {
+            let material = self.material.map(|name| reader.material(Some(name))).transpose()?;
+            // Materials that count for nothing need not be there.
+            let mut model = reader.model(&self.file, material.is_none()).map_err(|problem| Fault("file", problem))?;
+            put(&mut model.mesh, self.scale, self.rotation, self.translation)?;
+            if let Some(material) = material {
+                return Ok(Mesh { material, ..model.mesh });
+            }
+            let default = if model.bare { reader.material(None)? } else { 0 };
+            let file = Path::new(&self.file).file_name().unwrap_or_default().to_string_lossy();
+            Ok(model.merge(default, |m| reader.add(Material { name: format!("{file}:{}", m.name), ..m })))
+        }
+    }
+
+    /// Scales, then turns about x, y and z, then moves.
+    fn put(
+        mesh: &mut Mesh,
+        scale: Option<f32>,
+        rotation: Option<Vec3>,
+        translation: Option<Vec3>,
+    ) -> Result<(), Fault> {
+        let scale = f64::from(scale.unwrap_or(1.0));
+        if !(scale > 0.0 && scale.is_finite()) {
+            return Err(Fault("scale", format!("must be above 0 and finite, got {scale}")));
+        }
+        let degrees = rotation.unwrap_or_default();
+        if !degrees.is_finite() {
+            return Err(Fault("rotation", "must be finite".into()));
+        }
+        let [x, y, z] = degrees.as_dvec3().to_array().map(f64::to_radians);
+        let turn = glam::DMat3::from_rotation_z(z) * glam::DMat3::from_rotation_y(y) * glam::DMat3::from_rotation_x(x);
+        let to = translation.unwrap_or_default().as_dvec3();
+        for p in &mut mesh.positions {
+            *p = (turn * (p.as_dvec3() * scale) + to).as_vec3();
+            vertex(*p).map_err(|problem| Fault("translation", format!("a vertex {problem}")))?;
+        }
+        for n in &mut mesh.normals {
+            *n = (turn * n.as_dvec3()).as_vec3();
+        }
+        Ok(())
+    }
+
+    table! {
+        /// The table of a single triangle.
+        pub(crate) struct TriangleFile {
+            vertices: [Vec3; 3],
+            normals: Option<[Vec3; 3]>,
+            uvs: Option<[Vec2; 3]>,
+            material: Option<String>,
+        }
+    }
+
+    impl Element for TriangleFile {
+        type Kind = Mesh;
+        const KEY: &'static str = Mesh::NAME.one;
+
+        /// A mesh of one.
+        fn describe(self, reader: &mut Reader<'_>) -> Result<Mesh, Fault> {
+            let corners = self.vertices;
+            let [a, b, c] = corners;
+            corners
+                .into_iter()
+                .try_for_each(vertex)
+                .and_then(|()| area(b - a, c - a))
+                .map_err(|problem| Fault("vertices", problem))?;
+            Ok(Mesh {
+                positions: corners.into(),
+                normals: self.normals.map(Vec::from).unwrap_or_default(),
+                uvs: self.uvs.map(Vec::from).unwrap_or_default(),
+                triangles: vec![[0, 1, 2]],
+                material: reader.material(self.material)?,
+                ..Mesh::default()
+            })
+        }
+    }
+
+    impl Readable for Mesh {
+        type Elements = (Array<MeshFile>, Array<TriangleFile>);
     }
 }

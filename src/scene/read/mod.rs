@@ -10,7 +10,6 @@ mod place;
 mod polygon;
 mod radiance;
 mod source;
-mod strict;
 pub(super) mod toml;
 
 use std::path::Path;

@@ -3,16 +3,15 @@
 pub(in crate::scene) mod elements;
 mod file;
 mod materials;
-mod value;
+pub(in crate::scene) mod value;
 mod view;
 
 use std::path::Path;
 
-use serde::Deserialize;
-use toml::de::{DeTable, Deserializer};
+use toml::de::DeTable;
 
-use self::{elements::Reader, file::SceneFile, materials::Names};
-use super::{assets::Assets, error::ReadError, image::Images, obj::Budget, place, source::Progress, strict::Table};
+use self::{elements::Reader, file::SceneFile, materials::Names, value::Misfit};
+use super::{assets::Assets, error::ReadError, image::Images, obj::Budget, place, source::Progress};
 use crate::scene::{Description, Invalid, check};
 
 /// The most tables of a file without a header, as [`tables`] counts: more than the shortest primitives that fit into it.
@@ -29,8 +28,7 @@ pub(super) fn parse(
         return Err(ReadError::File { path: file.into(), problem: format!("more than {MAX_TABLES} tables") });
     }
     let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
-    let table = Deserializer::from(table);
-    let scene = SceneFile::deserialize(table).map_err(|error| shape(text, file, &error))?;
+    let scene = SceneFile::read(table.into_inner()).map_err(|misfit| shape(text, file, &misfit))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     describe(scene, name, assets, progress)
         .and_then(|description| check(&description).map(|()| description))
@@ -63,23 +61,13 @@ fn syntax(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
 }
 
 /// A key that is unknown or missing, or a value of the wrong type.
-fn shape(text: &str, file: &Path, error: &toml::de::Error) -> ReadError {
-    let span = error.span().unwrap_or(0..0);
+fn shape(text: &str, file: &Path, Misfit { span, missing, problem }: &Misfit) -> ReadError {
     let line = place::line_at(text.as_bytes(), span.start);
-    let key = place::key_at(text, &span).unwrap_or_else(|| "scene".into());
-    let message = error.message();
-    if let Some(missing) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
-        return ReadError::at(file, line, format_args!("{key}.{missing}"), "missing");
+    let key = place::key_at(text, span).unwrap_or_else(|| "scene".into());
+    match missing {
+        Some(missing) => ReadError::at(file, line, format_args!("{key}.{missing}"), problem),
+        None => ReadError::at(file, line, key, problem),
     }
-    if let Some((_, expected)) = message.strip_prefix("unknown field `").and_then(|rest| rest.split_once("`, ")) {
-        return ReadError::at(file, line, key, format_args!("unknown key, {expected}"));
-    }
-    // Rust's type names mean nothing to who writes a scene.
-    let words = [("f32", "a number"), ("u32", "a whole number"), ("a sequence", "an array"), ("a map", "a table")];
-    let words = words.map(|(rust, plain)| (format!("expected {rust}"), format!("expected {plain}")));
-    let problem =
-        words.iter().find_map(|(rust, plain)| Some(format!("{}{plain}", message.strip_suffix(rust.as_str())?)));
-    ReadError::at(file, line, key, problem.as_deref().unwrap_or(message))
 }
 
 fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<'_>) -> Result<Description, Invalid> {
@@ -87,10 +75,10 @@ fn describe(scene: SceneFile, name: String, assets: &Assets, progress: Progress<
     let names = Names::new(scene.materials, &mut images)?;
     let mut description = Description {
         name,
-        camera: scene.camera.0.describe(),
-        settings: scene.settings.0.describe(),
-        sky: scene.sky.0.describe(&mut images)?,
-        lights: scene.light.into_iter().map(|Table(light)| light.describe()).collect(),
+        camera: scene.camera.map(|camera| camera.describe()).unwrap_or_default(),
+        settings: scene.settings.map(|settings| settings.describe()).unwrap_or_default(),
+        sky: scene.sky.map(|sky| sky.describe(&mut images)).transpose()?.unwrap_or_default(),
+        lights: scene.light.into_iter().map(|light| light.describe()).collect(),
         ..Description::default()
     };
     let mut reader = Reader { names, images, assets, budget: Budget::default(), progress };

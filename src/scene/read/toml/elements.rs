@@ -1,14 +1,13 @@
 //! The arrays of primitives: elements of the scene file, and how they become the description's.
 
-use serde::de::{DeserializeOwned, MapAccess};
-
 use super::materials::Names;
-pub(in crate::scene) use super::value::{Exactly, Fault, Triple};
-use crate::scene::read::{assets::Assets, image::Images, obj, source::Progress, strict::Table};
+pub(in crate::scene) use super::value::{Fault, table};
+use super::value::{Misfit, Parsed, Value};
+use crate::scene::read::{assets::Assets, image::Images, obj, source::Progress};
 use crate::scene::{Invalid, Material};
 
 /// The table of one element of an array of primitives.
-pub(crate) trait Element: DeserializeOwned {
+pub(crate) trait Element: Value {
     /// The kind of primitive that it becomes.
     type Kind;
     /// The key of its array.
@@ -18,6 +17,12 @@ pub(crate) trait Element: DeserializeOwned {
     fn describe(self, reader: &mut Reader<'_>) -> Result<Self::Kind, Fault>;
 }
 
+/// A kind of primitive that a scene file may hold.
+pub(crate) trait Readable: Sized {
+    /// The arrays of the scene file that it is read from.
+    type Elements: Elements<Kind = Self>;
+}
+
 /// One array of the scene file, or several one after the other, that become primitives of one kind.
 pub(crate) trait Elements: Default {
     /// The kind of primitive that they become.
@@ -25,14 +30,14 @@ pub(crate) trait Elements: Default {
 
     /// Their keys.
     fn keys() -> Vec<&'static str>;
-    /// Takes the value of a key, if it is one of theirs.
-    fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error>;
+    /// Takes the value of a key, and gives it back if that is none of theirs.
+    fn take<'i>(&mut self, key: &str, value: Parsed<'i>) -> Result<Option<Parsed<'i>>, Misfit>;
     /// Makes them that, in the order that materials which the file does not define get their numbers in.
     fn describe(self, reader: &mut Reader<'_>) -> Result<Vec<Self::Kind>, Invalid>;
 }
 
 /// An array of tables.
-pub(crate) struct Array<E>(Vec<Table<E>>);
+pub(crate) struct Array<E>(Vec<E>);
 
 impl<E> Default for Array<E> {
     fn default() -> Self {
@@ -46,14 +51,15 @@ impl<E: Element> Elements for Array<E> {
     fn keys() -> Vec<&'static str> {
         vec![E::KEY]
     }
-    fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
-        if key == E::KEY {
-            self.0 = map.next_value()?;
+    fn take<'i>(&mut self, key: &str, value: Parsed<'i>) -> Result<Option<Parsed<'i>>, Misfit> {
+        if key != E::KEY {
+            return Ok(Some(value));
         }
-        Ok(key == E::KEY)
+        self.0 = Vec::read(value)?;
+        Ok(None)
     }
     fn describe(self, reader: &mut Reader<'_>) -> Result<Vec<E::Kind>, Invalid> {
-        let one = |(i, Table(element)): (usize, Table<E>)| {
+        let one = |(i, element): (usize, E)| {
             let invalid = |Fault(key, problem)| Invalid { key: format!("{}[{i}].{key}", E::KEY), problem };
             element.describe(reader).map_err(invalid)
         };
@@ -67,8 +73,11 @@ impl<A: Elements, B: Elements<Kind = A::Kind>> Elements for (A, B) {
     fn keys() -> Vec<&'static str> {
         [A::keys(), B::keys()].concat()
     }
-    fn take<'de, M: MapAccess<'de>>(&mut self, key: &str, map: &mut M) -> Result<bool, M::Error> {
-        Ok(self.0.take(key, map)? || self.1.take(key, map)?)
+    fn take<'i>(&mut self, key: &str, value: Parsed<'i>) -> Result<Option<Parsed<'i>>, Misfit> {
+        match self.0.take(key, value)? {
+            Some(value) => self.1.take(key, value),
+            None => Ok(None),
+        }
     }
     fn describe(self, reader: &mut Reader<'_>) -> Result<Vec<A::Kind>, Invalid> {
         let mut all = self.0.describe(reader)?;

@@ -1,28 +1,25 @@
-//! The scene file as a whole. Derived it would have to name the kinds of primitive once more.
+//! The scene file as a whole, with an array or several for each kind of primitive.
 
-use std::{collections::BTreeMap, fmt, sync::LazyLock};
+use std::{collections::BTreeMap, sync::LazyLock};
 
-use serde::{
-    Deserialize, Deserializer,
-    de::{Error, MapAccess, Visitor},
-};
+use toml::de::DeTable;
 
-use super::elements::{Elements, Reader};
+use super::elements::{Elements, Readable, Reader};
 use super::materials::MaterialFile;
+use super::value::{Misfit, Parsed, Value};
 use super::view::{CameraFile, LightFile, SettingsFile, SkyFile};
 use crate::kinds::for_each_kind;
-use crate::scene::kinds::{KINDS, Kind, each_kind};
-use crate::scene::read::strict::Table;
+use crate::scene::kinds::{KINDS, each_kind};
 use crate::scene::{Description, Invalid};
 
 /// The contents of a scene file.
 #[derive(Default)]
 pub(super) struct SceneFile {
-    pub camera: Table<CameraFile>,
-    pub settings: Table<SettingsFile>,
-    pub sky: Table<SkyFile>,
-    pub light: Vec<Table<LightFile>>,
-    pub materials: BTreeMap<String, Table<MaterialFile>>,
+    pub camera: Option<CameraFile>,
+    pub settings: Option<SettingsFile>,
+    pub sky: Option<SkyFile>,
+    pub light: Vec<LightFile>,
+    pub materials: BTreeMap<String, MaterialFile>,
     pub primitives: Primitives,
 }
 
@@ -32,13 +29,14 @@ macro_rules! primitives {
         /// The primitives of a scene file.
         #[derive(Default)]
         pub(super) struct Primitives {
-            $($($field: <crate::scene::$Kind as Kind>::Elements,)*)*
+            $($($field: <crate::scene::$Kind as Readable>::Elements,)*)*
         }
 
         impl Primitives {
-            /// Takes the value of a key, if it is one of theirs.
-            fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
-                Ok(false $($(|| self.$field.take(key, map)?)*)*)
+            /// Takes the value of a key, and gives it back if that is none of theirs.
+            fn take<'i>(&mut self, key: &str, value: Parsed<'i>) -> Result<Option<Parsed<'i>>, Misfit> {
+                $($(let Some(value) = self.$field.take(key, value)? else { return Ok(None) };)*)*
+                Ok(Some(value))
             }
 
             /// Puts them into the description.
@@ -55,7 +53,7 @@ for_each_kind! { primitives }
 static KEYS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let mut keys = vec!["camera", "settings", "sky", "light", "materials"];
     keys.extend(KINDS.iter().map(|kind| kind.one));
-    for key in each_kind!(|K| <K as Kind>::Elements::keys()).concat() {
+    for key in each_kind!(|K| <K as Readable>::Elements::keys()).concat() {
         if !keys.contains(&key) {
             keys.push(key);
         }
@@ -63,55 +61,24 @@ static KEYS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     keys
 });
 
-/// One of [`KEYS`].
-struct Key(&'static str);
-
-impl<'de> Deserialize<'de> for Key {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Known;
-        impl Visitor<'_> for Known {
-            type Value = Key;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a key")
-            }
-
-            fn visit_str<E: Error>(self, key: &str) -> Result<Key, E> {
-                let known = KEYS.iter().find(|known| **known == key);
-                known.map(|known| Key(known)).ok_or_else(|| E::unknown_field(key, &KEYS))
-            }
-        }
-        deserializer.deserialize_identifier(Known)
-    }
-}
-
-impl<'de> Deserialize<'de> for SceneFile {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Shape;
-        impl<'de> Visitor<'de> for Shape {
-            type Value = SceneFile;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a scene")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<SceneFile, A::Error> {
-                let mut file = SceneFile::default();
-                while let Some(Key(key)) = map.next_key()? {
-                    match key {
-                        "camera" => file.camera = map.next_value()?,
-                        "settings" => file.settings = map.next_value()?,
-                        "sky" => file.sky = map.next_value()?,
-                        "light" => file.light = map.next_value()?,
-                        "materials" => file.materials = map.next_value()?,
-                        _ => {
-                            file.primitives.take(key, &mut map)?;
-                        }
+impl SceneFile {
+    /// Reads the whole of it.
+    pub(super) fn read(table: DeTable<'_>) -> Result<Self, Misfit> {
+        let mut file = Self::default();
+        for (key, value) in table {
+            match key.get_ref().as_ref() {
+                "camera" => file.camera = Value::read(value)?,
+                "settings" => file.settings = Value::read(value)?,
+                "sky" => file.sky = Value::read(value)?,
+                "light" => file.light = Value::read(value)?,
+                "materials" => file.materials = Value::read(value)?,
+                name => {
+                    if file.primitives.take(name, value)?.is_some() {
+                        return Err(Misfit::unknown(key.span(), &KEYS));
                     }
                 }
-                Ok(file)
             }
         }
-        deserializer.deserialize_map(Shape)
+        Ok(file)
     }
 }

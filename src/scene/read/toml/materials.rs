@@ -3,62 +3,36 @@
 use std::collections::{BTreeMap, HashMap};
 
 use glam::Vec3;
-use serde::Deserialize;
 
-use super::value::{Fault, Triple};
-use crate::scene::{
-    Invalid, Material, Pigment,
-    read::{
-        image::Images,
-        strict::{Exactly, Table},
-    },
-    rules,
-};
+use super::value::{Fault, table};
+use crate::scene::{Invalid, Material, Pigment, read::image::Images, rules};
 
 /// The material of a primitive that names none, unless the file defines one of this name.
 const DEFAULT_MATERIAL: &str = "default";
 
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub(super) struct MaterialFile {
-    color: Option<Triple>,
-    checker: Option<Table<CheckerFile>>,
-    texture: Option<String>,
-    texture_size: Option<f32>,
-    reflectance: f32,
-    transmission: f32,
-    ior: f32,
-    absorption: Triple,
-    specular: f32,
-    shininess: f32,
-}
-
-impl Default for MaterialFile {
-    fn default() -> Self {
-        let Material { reflectance, transmission, ior, absorption, specular, shininess, .. } = Material::default();
-        Self {
-            color: None,
-            checker: None,
-            texture: None,
-            texture_size: None,
-            reflectance,
-            transmission,
-            ior,
-            absorption: absorption.into(),
-            specular,
-            shininess,
-        }
+table! {
+    pub(super) struct MaterialFile {
+        color: Option<Vec3>,
+        checker: Option<CheckerFile>,
+        texture: Option<String>,
+        texture_size: Option<f32>,
+        reflectance: f32 = Material::default().reflectance,
+        transmission: f32 = Material::default().transmission,
+        ior: f32 = Material::default().ior,
+        absorption: Vec3 = Material::default().absorption,
+        specular: f32 = Material::default().specular,
+        shininess: f32 = Material::default().shininess,
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CheckerFile {
-    colors: Exactly<Triple, 2>,
-    size: f32,
+table! {
+    struct CheckerFile {
+        colors: [Vec3; 2],
+        size: f32,
+    }
 }
 
-fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Images<'_>) -> Result<Material, Invalid> {
+fn material((name, file): (String, MaterialFile), images: &mut Images<'_>) -> Result<Material, Invalid> {
     let MaterialFile { color, checker, texture, texture_size, reflectance, transmission, .. } = file;
     let invalid =
         |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", rules::key_part(&name)), problem };
@@ -70,8 +44,8 @@ fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Ima
         return Err(invalid("texture_size", "only goes with texture".into()));
     }
     let pigment = match (color, checker, texture) {
-        (Some(c), ..) => Pigment::Color(c.into()),
-        (_, Some(Table(c)), _) => Pigment::Checker { colors: c.colors.0.map(Vec3::from), size: c.size },
+        (Some(c), ..) => Pigment::Color(c),
+        (_, Some(c), _) => Pigment::Checker { colors: c.colors, size: c.size },
         (.., Some(file)) => {
             let texture = images.texture(&file).map_err(|error| invalid("texture", error.to_string()))?;
             Pigment::Texture { texture, size: texture_size.unwrap_or(1.0) }
@@ -79,7 +53,6 @@ fn material((name, Table(file)): (String, Table<MaterialFile>), images: &mut Ima
         _ => Pigment::Color(Vec3::splat(0.8)),
     };
     let MaterialFile { ior, absorption, specular, shininess, .. } = file;
-    let absorption = absorption.into();
     Ok(Material { name, pigment, reflectance, transmission, ior, absorption, additive: false, specular, shininess })
 }
 
@@ -94,10 +67,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub(super) fn new(
-        materials: BTreeMap<String, Table<MaterialFile>>,
-        images: &mut Images<'_>,
-    ) -> Result<Self, Invalid> {
+    pub(super) fn new(materials: BTreeMap<String, MaterialFile>, images: &mut Images<'_>) -> Result<Self, Invalid> {
         let materials = materials.into_iter().map(|m| material(m, images)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { named: materials.len(), materials, default: None, repeats: HashMap::new() })
     }

@@ -1,80 +1,62 @@
 //! The tables of what there is besides primitives: camera, settings, sky and lights.
 
 use glam::Vec3;
-use serde::Deserialize;
 
-use super::value::Triple;
-use crate::scene::{
-    CameraDescription, Dome, Invalid, Light, Settings, Sky,
-    read::{image::Images, strict::Exactly},
-};
+use super::value::table;
+use crate::scene::{CameraDescription, Dome, Invalid, Light, Settings, Sky, read::image::Images};
 
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub(super) struct CameraFile {
-    eye: Triple,
-    look_at: Triple,
-    up: Triple,
-    fov: f32,
-}
-
-impl Default for CameraFile {
-    fn default() -> Self {
-        let CameraDescription { eye, look_at, up, fov } = CameraDescription::default();
-        Self { eye: eye.into(), look_at: look_at.into(), up: up.into(), fov }
+table! {
+    pub(super) struct CameraFile {
+        eye: Vec3 = CameraDescription::default().eye,
+        look_at: Vec3 = CameraDescription::default().look_at,
+        up: Vec3 = CameraDescription::default().up,
+        fov: f32 = CameraDescription::default().fov,
     }
 }
 
 impl CameraFile {
     pub(super) fn describe(self) -> CameraDescription {
         let Self { eye, look_at, up, fov } = self;
-        CameraDescription { eye: eye.into(), look_at: look_at.into(), up: up.into(), fov }
+        CameraDescription { eye, look_at, up, fov }
     }
 }
 
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub(super) struct SettingsFile {
-    max_depth: u32,
-    attenuation: bool,
-    ambient: Triple,
-    tolerance: f32,
-}
-
-impl Default for SettingsFile {
-    fn default() -> Self {
-        let Settings { max_depth, attenuation, ambient, tolerance } = Settings::default();
-        Self { max_depth, attenuation, ambient: ambient.into(), tolerance }
+table! {
+    pub(super) struct SettingsFile {
+        max_depth: u32 = Settings::default().max_depth,
+        attenuation: bool = Settings::default().attenuation,
+        ambient: Vec3 = Settings::default().ambient,
+        tolerance: f32 = Settings::default().tolerance,
     }
 }
 
 impl SettingsFile {
     pub(super) fn describe(self) -> Settings {
         let Self { max_depth, attenuation, ambient, tolerance } = self;
-        Settings { max_depth, attenuation, ambient: ambient.into(), tolerance }
+        Settings { max_depth, attenuation, ambient, tolerance }
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct LightFile {
-    position: Triple,
-    power: Triple,
+table! {
+    pub(super) struct LightFile {
+        position: Vec3,
+        power: Vec3,
+    }
 }
 
 impl LightFile {
     pub(super) fn describe(self) -> Light {
-        Light { position: self.position.into(), power: self.power.into() }
+        Light { position: self.position, power: self.power }
     }
 }
 
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub(super) struct SkyFile {
-    color: Option<Triple>,
-    gradient: Option<Exactly<Triple, 2>>,
-    image: Option<String>,
-    rotation: Option<f32>,
+table! {
+    pub(super) struct SkyFile {
+        color: Option<Vec3>,
+        gradient: Option<[Vec3; 2]>,
+        image: Option<String>,
+        rotation: Option<f32>,
+    }
 }
 
 impl SkyFile {
@@ -96,8 +78,8 @@ impl SkyFile {
             return Ok(Sky::Dome(dome.into()));
         }
         Ok(match gradient {
-            Some(Exactly([below, above])) => Sky::Gradient { below: below.into(), above: above.into() },
-            None => Sky::Color(color.map(Vec3::from).unwrap_or_default()),
+            Some([below, above]) => Sky::Gradient { below, above },
+            None => Sky::Color(color.unwrap_or_default()),
         })
     }
 }
