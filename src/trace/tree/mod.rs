@@ -17,6 +17,7 @@ mod batch;
 mod beam;
 mod beams;
 mod behind;
+mod boxes;
 mod group;
 mod leaf;
 mod line;
