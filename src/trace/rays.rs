@@ -26,11 +26,18 @@ thread_local! {
 }
 
 impl Room {
+    /// Takes at most [`BATCH`] rays, column by column: several times as fast as one [`RayBatch::push`] after the other.
     fn pack(&mut self, rays: &[Ray]) {
-        self.rays.clear();
-        for ray in rays {
-            self.rays.push(ray.origin, ray.direction, ray.t_min, ray.t_max);
+        let rays = &rays[..rays.len().min(BATCH)];
+        self.rays.set_len(rays.len());
+        let RayBatch { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max, .. } = &mut self.rays;
+        for (i, ray) in rays.iter().enumerate() {
+            (ox[i], oy[i], oz[i]) = ray.origin.into();
+            (dx[i], dy[i], dz[i]) = ray.direction.into();
+            (t_min[i], t_max[i]) = (ray.t_min, ray.t_max);
         }
+        // Inactive rays count here as well, which costs them nothing but speed.
+        self.rays.common_origin = rays.iter().all(|ray| ray.origin == rays[0].origin);
     }
 }
 

@@ -146,3 +146,30 @@ fn a_ray_without_finite_numbers_meets_nothing() {
         assert!(!met(Ray { direction: Vec3::new(0.0, bad, -1.0), ..ray }));
     }
 }
+
+/// Trees within the boxes of a tree, as instances are.
+#[test]
+fn a_closure_may_go_through_another_tree() {
+    let mut rng = Pcg::new(11);
+    let groups: Vec<Vec<Ball>> = (0..40).map(|_| balls(30, &mut rng)).collect();
+    let trees: Vec<BoxTree> = groups.iter().map(|group| BoxTree::build(&bounds(group))).collect();
+    let whole = BoxTree::build(&trees.iter().map(BoxTree::bounds).collect::<Vec<_>>());
+    let all = groups.concat();
+    for ray in rays(&mut rng) {
+        let below = |i: usize, ray: &Ray| Some(trees[i].intersect(ray, |k, ray| groups[i][k].hit(ray))?.t);
+        let found = whole.intersect(&ray, below).map(|hit| hit.t);
+        assert_eq!(found, nearest(&all, &ray).map(|hit| hit.t), "{ray:?}");
+    }
+}
+
+/// Things that all lie in one plane, in boxes of which those of higher places begin earlier.
+#[test]
+fn at_equal_distance_the_lowest_place_wins() {
+    let around = |i: usize| Aabb { min: Vec3::splat(-1.0), max: Vec3::new(1.0, 1.0, 1.0 + i as f32) };
+    for count in [2, 9, 100] {
+        let tree = BoxTree::build(&(0..count).map(around).collect::<Vec<_>>());
+        let ray = Ray::new([0.25, 0.5, 200.0], Vec3::NEG_Z);
+        let hit = tree.intersect(&ray, |i, ray| (i > 0).then_some(-ray.origin.z / ray.direction.z));
+        assert_eq!(hit, Some(Hit { t: 200.0, primitive: 1 }), "{count}");
+    }
+}

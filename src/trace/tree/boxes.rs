@@ -1,6 +1,7 @@
 //! One ray through a tree over boxes of the caller's own: the boxes' test, padding and order are those of a single ray
 //! through the scene's tree ([`super::single`]).
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 use glam::Vec3;
@@ -12,6 +13,12 @@ use super::stack::Stack;
 use super::state::TOO_FAR;
 use crate::bvh::{Aabb, BoxTree, Kind};
 use crate::trace::{Hit, Ray};
+
+thread_local! {
+    /// What a traversal puts aside goes here, kept by every thread from one to the next. One that begins within another, in
+    /// its closure, finds nothing here and makes its own.
+    static STACK: Cell<Option<Box<Stack>>> = const { Cell::new(None) };
+}
 
 impl BoxTree {
     /// The nearest hit of one ray. For every box that the ray meets before what is known by then, `test` is told its place
@@ -58,31 +65,39 @@ impl BoxTree {
     /// [`ControlFlow::Break`], whose value is then the answer. `ray.t_min` is the caller's matter. Which boxes are met is
     /// as in [`BoxTree::intersect`].
     pub fn traverse<B>(&self, ray: &Ray, mut visit: impl FnMut(usize, &mut f32) -> ControlFlow<B>) -> ControlFlow<B> {
-        let mut limit = ray.t_max;
+        let limit = ray.t_max;
         let counts = limit >= 0.0 && ((ray.origin * TOO_FAR).is_finite() && (ray.direction * TOO_FAR).is_finite());
         if self.is_empty() || !counts {
             return ControlFlow::Continue(());
         }
-        let line = Line::of(ray, self.bounds());
-        let mut stack = Stack::default();
+        let mut stack = STACK.take().unwrap_or_default();
+        let end = self.through(&Line::of(ray, self.bounds()), limit, &mut stack, &mut visit);
+        STACK.set(Some(stack));
+        end
+    }
+
+    fn through<B>(
+        &self,
+        line: &Line,
+        mut limit: f32,
+        stack: &mut Stack,
+        visit: &mut impl FnMut(usize, &mut f32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        stack.clear();
         let mut at = 0;
         loop {
             let node = &self.nodes()[at];
             let (enter, met) = line.meets(node, f32x8::splat(limit));
             let mut next = (met != 0).then(|| stack.nearest(node, &enter.to_array(), met));
-            loop {
-                let Some(entry) = next.or_else(|| stack.pop(limit)) else { return ControlFlow::Continue(()) };
+            at = loop {
+                let Some(entry) = next.take().or_else(|| stack.pop(limit)) else { return ControlFlow::Continue(()) };
                 let child = entry.child();
                 match child.kind() {
-                    Kind::Node => {
-                        at = child.index();
-                        break;
-                    }
+                    Kind::Node => break child.index(),
                     Kind::Nothing => (),
                     _ => visit(child.index(), &mut limit)?,
                 }
-                next = None;
-            }
+            };
         }
     }
 }
