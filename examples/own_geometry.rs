@@ -1,7 +1,7 @@
 //! Geometry that the library does not know, in a tree over its boxes: capsules, which are lines of a thickness.
 //!
-//! `cargo run --release --example own_geometry` traces a million rays through 20,000 of them, on all threads, then moves
-//! them and traces again.
+//! `cargo run --release --example own_geometry` traces a million rays through 20,000 of them, on all threads, then
+//! moves them and traces again.
 
 use std::time::Instant;
 
@@ -22,7 +22,8 @@ impl Capsule {
         Aabb { min: self.a.min(self.b) - self.radius, max: self.a.max(self.b) + self.radius }
     }
 
-    /// Where a ray from outside enters it. (After Quilez, *Capsule intersection*: the side first, then the nearer ball.)
+    /// Where a ray from outside enters it. (After Quilez, *Capsule intersection*: the side first, then the nearer
+    /// ball.)
     fn enter(&self, ray: &Ray) -> Option<f32> {
         let (ba, oa) = (self.b - self.a, ray.origin - self.a);
         let [baba, bard, baoa] = [ba.dot(ba), ba.dot(ray.direction), ba.dot(oa)];

@@ -1,7 +1,7 @@
 //! A tree over boxes of the caller's own, for geometry that this crate does not know.
 //!
-//! Built as the scene's tree is, but every box is a child of a node, so that it is tested itself, eight side by side, and
-//! only then the caller's code is asked. How rays go through it stands in `trace`.
+//! Built as the scene's tree is, but every box is a child of a node, so that it is tested itself, eight side by side,
+//! and only then the caller's code is asked. How rays go through it stands in `trace`.
 
 use super::aabb::Aabb;
 use super::block::Blocks;
@@ -32,8 +32,8 @@ const AS: Kind = Kind::Tori;
 impl BoxTree {
     /// Builds the tree, in the caller's rayon pool; it is the same for every number of threads.
     ///
-    /// A coordinate that is not finite counts as ±[`f32::MAX`]. A box that is empty ([`Aabb::EMPTY`]) is met by no ray that
-    /// starts in or near the other boxes.
+    /// A coordinate that is not finite counts as ±[`f32::MAX`]. A box that is empty ([`Aabb::EMPTY`]) is met by no ray
+    /// that starts in or near the other boxes.
     ///
     /// # Panics
     /// With more than [`MAX_PRIMITIVES`] boxes.

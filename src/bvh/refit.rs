@@ -12,8 +12,8 @@ use super::tree::Bvh;
 use crate::math::NONE;
 
 impl Bvh {
-    /// Takes the primitives as they are now, in the caller's rayon pool. Ids and classes are those that the tree was built
-    /// from; `first` is the id of the source's first.
+    /// Takes the primitives as they are now, in the caller's rayon pool. Ids and classes are those that the tree was
+    /// built from; `first` is the id of the source's first.
     pub(crate) fn refit(&mut self, source: &impl Source, first: u32) {
         let ids = self.blocks.lists();
         let around = |block: &[u32; BLOCK]| {

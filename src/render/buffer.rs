@@ -13,8 +13,9 @@ use crate::scene::Scene;
 #[non_exhaustive]
 pub struct Cancelled;
 
-/// Renders into `pixels`, row by row from the top, in linear red, green and blue: the bits of [`render`](super::render())
-/// into a film of that size. It works in the caller's rayon pool, with `samples` × `samples` rays a pixel, at least 1.
+/// Renders into `pixels`, row by row from the top, in linear red, green and blue: the bits of
+/// [`render`](super::render()) into a film of that size. It works in the caller's rayon pool, with `samples` ×
+/// `samples` rays a pixel, at least 1.
 ///
 /// `watch` is told the share that is done, from 0 to 1, before every tile of 16 × 16 pixels, from any thread and not
 /// always in rising order, and with 1 at the end. Once it says [`ControlFlow::Break`] no further tile is begun, and the

@@ -34,7 +34,8 @@ impl Light {
 }
 
 impl Material {
-    /// A matt surface of a colour, each channel 0 or more; it reflects no more light than it gets where none is above 1.
+    /// A matt surface of a colour, each channel 0 or more; it reflects no more light than it gets where none is above
+    /// 1.
     pub fn diffuse(color: impl Into<Vec3>) -> Self {
         Self { pigment: Pigment::Color(color.into()), ..Self::default() }
     }

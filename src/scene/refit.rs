@@ -53,21 +53,21 @@ macro_rules! unlike {
 for_each_kind!(unlike);
 
 impl Scene {
-    /// Takes a description that differs from the one that the scene was compiled from only in where things are, how large
-    /// they are, and in all that is no primitive: new vertex positions of meshes, say, or another light. Primitives keep
-    /// their ids.
+    /// Takes a description that differs from the one that the scene was compiled from only in where things are, how
+    /// large they are, and in all that is no primitive: new vertex positions of meshes, say, or another light.
+    /// Primitives keep their ids.
     ///
-    /// Answers and pictures are those of a scene compiled anew, to the bit. Where the scene has a tree ([`Scene::bvh`]) this is
-    /// much faster than [`compile`](super::compile()), as the tree is not built but only its boxes are made to fit. The more
-    /// the things have moved against each other since the tree was built, the slower rays become:
-    /// [`Stats::sah`](crate::bvh::Stats::sah) of [`Bvh::stats`](crate::bvh::Bvh::stats) tells by how much. Cylinders and
-    /// cones that the tree had cut into pieces are found by larger boxes afterwards. [`Scene::build_time`] is then the time
-    /// this took the tree. It works in the caller's rayon pool, and
-    /// holds the arrays and blocks twice while it does.
+    /// Answers and pictures are those of a scene compiled anew, to the bit. Where the scene has a tree ([`Scene::bvh`])
+    /// this is faster than [`compile`](super::compile()), as the tree is not built but only its boxes are made to
+    /// fit. The more the things have moved against each other since the tree was built, the slower rays become:
+    /// [`Stats::sah`](crate::bvh::Stats::sah) of [`Bvh::stats`](crate::bvh::Bvh::stats) tells by how much. Cylinders
+    /// and cones that the tree had cut into pieces are found by larger boxes afterwards. [`Scene::build_time`] is then
+    /// the time this took the tree. It works in the caller's rayon pool, and holds the arrays and blocks twice while it
+    /// does.
     ///
     /// # Errors
-    /// [`RefitError`] when the description is not sound, or primitives have come, gone or changed their variant. The scene
-    /// is as it was then.
+    /// [`RefitError`] when the description is not sound, or primitives have come, gone or changed their variant. The
+    /// scene is as it was then.
     pub fn refit(&mut self, description: &Description) -> Result<(), RefitError> {
         let mut new = Self::without_tree(description, &self.options)?;
         if let Some(fault) = unlike(self, &new) {

@@ -15,8 +15,8 @@ use crate::trace::{Hit, Ray};
 pub struct SurfaceInteraction {
     /// The point, on the surface to within rounding.
     pub point: Vec3,
-    /// The unit geometric normal: outward, or where a mesh's corners run counter-clockwise, whichever side the ray is on.
-    /// Zero for a triangle without area.
+    /// The unit geometric normal: outward, or where a mesh's corners run counter-clockwise, whichever side the ray is
+    /// on. Zero for a triangle without area.
     pub normal: Vec3,
     /// The unit normal for shading, on the same side: interpolated where a mesh has vertex normals, else `normal`.
     pub shading_normal: Vec3,
@@ -26,8 +26,8 @@ pub struct SurfaceInteraction {
     pub uv: Vec2,
     /// Its material, by its place in [`Scene::materials`].
     pub material: usize,
-    /// How far off the surface, in world units, a ray has to start so as not to meet it again by rounding. This is a bound
-    /// on the rounding, unless the scene was compiled with another method of `offset`.
+    /// How far off the surface, in world units, a ray has to start so as not to meet it again by rounding. This is a
+    /// bound on the rounding, unless the scene was compiled with another method of `offset`.
     pub lift: f32,
     offsets: Offsets,
 }
@@ -57,8 +57,8 @@ impl Scene {
 }
 
 impl SurfaceInteraction {
-    /// The ray that leaves the surface in a unit direction, to either side, without an end. It does not meet the surface
-    /// that it leaves by rounding, and needs no `t_min`.
+    /// The ray that leaves the surface in a unit direction, to either side, without an end. It does not meet the
+    /// surface that it leaves by rounding, and needs no `t_min`.
     pub fn spawn_ray(&self, direction: Vec3) -> Ray {
         Ray::new(self.point + self.towards(direction) * self.lift, direction)
     }

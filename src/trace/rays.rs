@@ -44,8 +44,8 @@ impl Room {
 /// The nearest hits of many rays, on the calling thread: `hits[i]` is that of `rays[i]`, or `None`.
 ///
 /// The rays are traced 256 at a time, in their order; those that lie together in space had best lie together there. All
-/// answers are those of [`intersect()`], to the bit. The order and the number of the rays change none, unless a ray has NaN
-/// or infinite components.
+/// answers are those of [`intersect()`], to the bit. The order and the number of the rays change none, unless a ray has
+/// NaN or infinite components.
 ///
 /// # Panics
 /// When the slices differ in length.
@@ -64,7 +64,8 @@ pub fn intersect_rays(scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
     });
 }
 
-/// Whether anything lies in the interval of each of many rays, on the calling thread; else as [`intersect_rays`], and faster.
+/// Whether anything lies in the interval of each of many rays, on the calling thread; else as [`intersect_rays`], and
+/// faster.
 ///
 /// # Panics
 /// When the slices differ in length.

@@ -15,23 +15,23 @@ use crate::bvh::{Aabb, BoxTree, Kind};
 use crate::trace::{Hit, Ray};
 
 thread_local! {
-    /// What a traversal puts aside goes here, kept by every thread from one to the next. One that begins within another, in
-    /// its closure, finds nothing here and makes its own.
+    /// What a traversal puts aside goes here, kept by every thread from one to the next. One that begins within
+    /// another, in its closure, finds nothing here and makes its own.
     static STACK: Cell<Option<Box<Stack>>> = const { Cell::new(None) };
 }
 
 impl BoxTree {
-    /// The nearest hit of one ray. For every box that the ray meets before what is known by then, `test` is told its place
-    /// and the ray as far as it still counts, and gives the distance where the ray hits what is in the box, or the nearest
-    /// of such distances.
+    /// The nearest hit of one ray. For every box that the ray meets before what is known by then, `test` is told its
+    /// place and the ray as far as it still counts, and gives the distance where the ray hits what is in the box, or
+    /// the nearest of such distances.
     ///
-    /// Distances outside of the open interval of the ray it is told do not count. At equal distance the lowest place wins,
-    /// and so the answer does not depend on the order. [`Hit::primitive`] is the place.
+    /// Distances outside of the open interval of the ray it is told do not count. At equal distance the lowest place
+    /// wins, and so the answer does not depend on the order. [`Hit::primitive`] is the place.
     ///
-    /// `test` may be asked about boxes that the ray passes close by. With R the largest distance along an axis from the ray's
-    /// start to a corner of the tree's box, plus the start's largest coordinate, and ε = 2⁻²⁴, no hit is lost that lies
-    /// within 56 ε R of its box along every axis. A ray with NaN or infinite components, or which starts beyond 2⁶⁸, hits
-    /// nothing.
+    /// `test` may be asked about boxes that the ray passes close by. With R the largest distance along an axis from the
+    /// ray's start to a corner of the tree's box, plus the start's largest coordinate, and ε = 2⁻²⁴, no hit is lost
+    /// that lies within 56 ε R of its box along every axis. A ray with NaN or infinite components, or which starts
+    /// beyond 2⁶⁸, hits nothing.
     pub fn intersect(&self, ray: &Ray, mut test: impl FnMut(usize, &Ray) -> Option<f32>) -> Option<Hit> {
         let (mut ray, mut nearest) = (*ray, None::<Hit>);
         let _ = self.traverse(&{ ray }, |i, t_max| {
@@ -49,8 +49,8 @@ impl BoxTree {
         nearest
     }
 
-    /// Whether one ray hits anything, by a `test` as that of [`BoxTree::intersect`], which is asked no more after its first
-    /// hit.
+    /// Whether one ray hits anything, by a `test` as that of [`BoxTree::intersect`], which is asked no more after its
+    /// first hit.
     pub fn occluded(&self, ray: &Ray, mut test: impl FnMut(usize, &Ray) -> Option<f32>) -> bool {
         let traversal = self.traverse(ray, |i, _| match test(i, ray).filter(|t| *t > ray.t_min && *t < ray.t_max) {
             Some(_) => ControlFlow::Break(()),
@@ -59,11 +59,12 @@ impl BoxTree {
         traversal.is_break()
     }
 
-    /// Visits the boxes that one ray meets between its start and `ray.t_max`, roughly from the nearest on, by their places.
+    /// Visits the boxes that one ray meets between its start and `ray.t_max`, roughly from the nearest on, by their
+    /// places.
     ///
     /// `visit` may lower the end of the interval, which passes over boxes that begin beyond it, and may end the way by
-    /// [`ControlFlow::Break`], whose value is then the answer. `ray.t_min` is the caller's matter. Which boxes are met is
-    /// as in [`BoxTree::intersect`].
+    /// [`ControlFlow::Break`], whose value is then the answer. `ray.t_min` is the caller's matter. Which boxes are met
+    /// is as in [`BoxTree::intersect`].
     pub fn traverse<B>(&self, ray: &Ray, mut visit: impl FnMut(usize, &mut f32) -> ControlFlow<B>) -> ControlFlow<B> {
         let limit = ray.t_max;
         let counts = limit >= 0.0 && ((ray.origin * TOO_FAR).is_finite() && (ray.direction * TOO_FAR).is_finite());
