@@ -37,6 +37,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # The names
+//!
+//! What short programs need stands at the root, and where it belongs in the modules as well: a scene from code is a
+//! [`Description`] of [`Mesh`]es, [`Sphere`]s and so on, which [`compile()`] makes a [`Scene`]; [`intersect_rays`] and
+//! [`occluded_rays`] answer many [`Ray`]s, [`Probe`] one; [`Scene::primitive`] and [`Scene::surface`] tell what a [`Hit`]
+//! means; [`Scene::refit`] follows what moves; [`render_into`] makes a picture; [`BoxTree`] finds geometry of other kinds.
+//! `docs/library.md` has a short program for each.
+//!
 //! # The house
 //!
 //! Imports run downward in this list, and within a folder never in a circle; `tests/house.rs` sees to it.
@@ -45,12 +53,12 @@
 //!
 //! - [`viewer`]: the window: 3D view, 2D slice, controls, overlay
 //! - [`measure`]: rays a second, and how right they are; the hard cases, the laboratory and its charts
-//! - [`render`]: camera, tiles, film, tone mapping, picture files
+//! - [`render`](mod@render): camera, tiles, film, tone mapping, picture files
 //! - [`shade`]: lights, materials, mirrors, glass, textures and sky, in waves
-//! - [`trace`]: the two queries over a compiled scene, for a batch of rays or a stream of them
+//! - [`trace`]: the two queries over a compiled scene, for a batch of rays, a stream or a slice of them
 //! - [`scene`]: what the user wrote, a file a kind of primitive, its readers and rules, the built-in scenes, `compile`,
 //!   the plan
-//! - [`bvh`]: the acceleration structure: build and layout
+//! - [`bvh`]: the acceleration structure: build, layout and refit; [`BoxTree`] over boxes of the caller's own
 //! - [`geometry`]: a file a kind of primitive: storage, tests by named [`geometry::methods`], surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
 //! - [`reference`](mod@reference): the scalar tracer that the others are checked against
@@ -83,7 +91,21 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-pub use {glam, wide};
+pub use {glam, rayon, wide};
+
+// What short programs need, by short names: `use raypacket::{…}` suffices. All of it is documented where it lives.
+pub use bvh::{Aabb, BoxTree};
+pub use math::{isa, slower_than_cpu};
+pub use render::{Camera, Cancelled, Counts, Film, Kernel, render, render_into, tone_map};
+pub use scene::{
+    CameraDescription, CompileOptions, Cone, Cuboid, Cylinder, Description, Disc, Dome, Fractal, Invalid, Light,
+    Material, Mesh, Pigment, Plan, Plane, Primitive, PrimitiveKind, Quad, RefitError, Scene, Settings, ShadowStart,
+    Sides, Sky, Sphere, Structure, Texture, Torus, check, compile, compile_with,
+};
+pub use shade::SurfaceInteraction;
+pub use trace::{
+    Hit, Probe, Ray, intersect_one, intersect_rays, occluded_one, occluded_rays, par_intersect_rays, par_occluded_rays,
+};
 
 pub mod bvh;
 #[cfg(feature = "files")]

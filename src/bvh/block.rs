@@ -148,6 +148,11 @@ macro_rules! blocks {
                 }
             }
 
+            /// The ids of every block; a list for each of [`Kind::BLOCKS`].
+            pub(super) fn lists(&self) -> Vec<Vec<[u32; BLOCK]>> {
+                vec![$(self.$field.blocks.iter().map(|block| block.id).collect()),*]
+            }
+
             /// Shows the ids that the first block of each kind begins with, and the bytes of a block.
             pub(super) fn places<'a>(&'a self, mut show: impl FnMut(Kind, &'a [u32], usize)) {
                 $(if let Some(block) = self.$field.blocks.first() {

@@ -1,7 +1,7 @@
 //! Wide nodes and blocks, in the order in which a traversal that goes left first comes by.
 
-use super::aabb::Aabb;
 use super::build::{Binary, Tree};
+use super::grain::Grain;
 use super::kind::{Child, Kind};
 use super::limits::{BLOCK, WIDTH};
 use super::node::Node;
@@ -23,27 +23,32 @@ struct Layout<'a, S> {
     /// The ids of every block; a list for each of [`Kind::BLOCKS`].
     ids: Vec<Vec<[u32; BLOCK]>>,
     depth: usize,
-    /// The sums of the squares and the cubes of the blocks' sizes, but for the largest blocks.
-    sizes: [f64; 2],
+    grain: Grain,
+}
+
+/// Wide nodes, the ids of the blocks, and what else is known of them.
+pub(super) struct Arranged {
+    pub nodes: Vec<Node>,
+    /// A list for each of [`Kind::BLOCKS`].
+    pub ids: Vec<Vec<[u32; BLOCK]>>,
+    pub root: Child,
+    pub depth: usize,
+    pub grain: f32,
 }
 
 /// The tree as it is traversed.
 pub(super) fn layout(source: &impl Source, tree: &Tree) -> Bvh {
+    let Arranged { nodes, ids, root, depth, grain } = arrange(source, tree);
+    Bvh { blocks: source.blocks(&ids), root, bounds: tree.nodes[0].bounds, depth, grain, nodes }
+}
+
+/// The nodes of a binary tree, eight children each, and what lies in the blocks.
+pub(super) fn arrange(source: &impl Source, tree: &Tree) -> Arranged {
     let ids = vec![Vec::new(); Kind::BLOCKS.len()];
-    let mut layout = Layout { source, tree, nodes: Vec::new(), ids, depth: 0, sizes: [0.0; 2] };
+    let mut layout = Layout { source, tree, nodes: Vec::new(), ids, depth: 0, grain: Grain::default() };
     let root = layout.child(Place::default(), 1);
-    Bvh {
-        blocks: source.blocks(&layout.ids),
-        root,
-        bounds: tree.nodes[0].bounds,
-        depth: layout.depth,
-        grain: match layout.sizes {
-            // All are large.
-            [0.0, _] => (tree.nodes[0].bounds.max - tree.nodes[0].bounds.min).max_element() / 8.0,
-            [squares, cubes] => (cubes / squares) as f32,
-        },
-        nodes: layout.nodes,
-    }
+    let grain = layout.grain.of(tree.nodes[0].bounds);
+    Arranged { nodes: layout.nodes, ids: layout.ids, root, depth: layout.depth, grain }
 }
 
 impl<S: Source> Layout<'_, S> {
@@ -87,11 +92,7 @@ impl<S: Source> Layout<'_, S> {
 
     fn leaf(&mut self, place: Place, binary: &Binary) -> Child {
         let class = self.source.class(self.tree.order[place.first] as usize);
-        let size = self::size(binary.bounds);
-        if size * 8.0 <= self::size(self.tree.nodes[0].bounds) {
-            self.sizes[0] += size * size;
-            self.sizes[1] += size * size * size;
-        }
+        self.grain.add(binary.bounds, self.tree.nodes[0].bounds);
         let mut ids = [NONE; BLOCK];
         let order = &self.tree.order[place.first..][..binary.len as usize];
         ids.iter_mut().zip(order).for_each(|(id, &i)| *id = self.source.id(i as usize));
@@ -109,10 +110,4 @@ impl<S: Source> Layout<'_, S> {
         list.push(ids);
         Child::new(class.kind(), list.len() - 1)
     }
-}
-
-/// A box's largest extent, or the edge of a square of half its area if that is less: what is long and thin is met by as
-/// few rays as a smaller square.
-fn size(bounds: Aabb) -> f64 {
-    bounds.area_f64().sqrt().min(f64::from((bounds.max - bounds.min).max_element()))
 }

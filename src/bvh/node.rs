@@ -36,6 +36,11 @@ impl Node {
         Aabb { min, max }
     }
 
+    /// The box around all children.
+    pub fn around(&self) -> Aabb {
+        (0..self.len()).map(|lane| self.bounds(lane)).fold(Aabb::EMPTY, Aabb::union)
+    }
+
     /// The boxes' coordinates along an axis at one end (0 for the least) and at the other.
     #[inline(always)]
     pub fn faces(&self, axis: usize, end: usize) -> [f32x8; 2] {

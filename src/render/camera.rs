@@ -42,6 +42,12 @@ impl Camera {
         }
     }
 
+    /// An eye that looks at a point, which is another one; +y is up. `fov` is the vertical field of view in degrees, above 0
+    /// and below 180, and `aspect` the picture's width / height.
+    pub fn look_at(eye: impl Into<Vec3>, look_at: impl Into<Vec3>, fov: f32, aspect: f32) -> Self {
+        Self::new(&CameraDescription { fov, ..CameraDescription::new(eye, look_at) }, aspect)
+    }
+
     /// p0, the top left corner of the screen.
     pub fn p0(&self) -> Vec3 {
         (self.eye.as_dvec3() + self.corner).as_vec3()

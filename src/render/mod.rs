@@ -3,12 +3,14 @@
 #[cfg(feature = "files")]
 pub mod output;
 
+mod buffer;
 mod camera;
 mod film;
 mod kernel;
 mod tile;
 
 pub use crate::shade::Counts;
+pub use buffer::{Cancelled, render_into};
 pub use camera::Camera;
 pub(crate) use film::Tone;
 pub use film::{Film, tone_map};

@@ -94,17 +94,11 @@ pub fn render(
     let grid = Grid::new(camera, film.width, film.height);
     let done = AtomicUsize::new(0);
     let rows = film.height.div_ceil(TILE);
-    let samples = samples.max(1);
-    let scale = 1.0 / (samples * samples) as f32;
     over_tiles(&mut film.pixels, film.width, |work, first, out| {
-        let counts = with_lanes!(kernel, sampled(scene, &grid, first, samples, work));
+        let counts = averaged(scene, &grid, first, kernel, samples, work, out);
         if first[0] + TILE >= grid.width {
             let rows_done = 1 + done.fetch_add(1, Ordering::Relaxed);
             progress(rows_done as f32 / rows as f32);
-        }
-        let [r, g, b] = &work.sum;
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = [r[i] * scale, g[i] * scale, b[i] * scale];
         }
         counts
     })
@@ -189,7 +183,7 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
 /// Memory that a thread keeps between tiles.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
-struct Work {
+pub(super) struct Work {
     shading: Workspace,
     sum: [[f32; BATCH]; 3],
     hits: HitBatch,
@@ -217,7 +211,7 @@ fn over_tiles<P: Copy + Default + Send>(
 }
 
 /// As [`over_tiles`], as long as `go_on` says so.
-fn over_tiles_while<P: Copy + Default + Send>(
+pub(super) fn over_tiles_while<P: Copy + Default + Send>(
     pixels: &mut [P],
     width: usize,
     go_on: &(dyn Fn() -> bool + Sync),
@@ -259,6 +253,26 @@ fn put<P: Copy>(tile: &[P; BATCH], strip: &mut [P], width: usize, x0: usize) {
 fn centred<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) -> Counts {
     grid.fill::<L>(first, [0.5, 0.5], &mut work.shading.primary.rays);
     trace_waves::<L>(scene, &mut work.shading, &mut ())
+}
+
+/// A tile's pixels with `samples` × `samples` rays each, at least 1.
+pub(super) fn averaged(
+    scene: &Scene,
+    grid: &Grid,
+    first: [usize; 2],
+    kernel: Kernel,
+    samples: u32,
+    work: &mut Work,
+    out: &mut [[f32; 3]; BATCH],
+) -> Counts {
+    let samples = samples.max(1);
+    let scale = 1.0 / (samples * samples) as f32;
+    let counts = with_lanes!(kernel, sampled(scene, grid, first, samples, work));
+    let [r, g, b] = &work.sum;
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = [r[i] * scale, g[i] * scale, b[i] * scale];
+    }
+    counts
 }
 
 fn sampled<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], samples: u32, work: &mut Work) -> Counts {

@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::in_tree::InTree;
 use super::kinds::Kind;
 use super::plan::Structure;
-use super::{Description, Invalid, Light, Material, Plan, Settings, Sky, Texture, check};
+use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
 use crate::bvh::{Aabb, Bvh};
 use crate::geometry::methods::Choice;
 use crate::geometry::{self, Primitives};
@@ -52,6 +52,8 @@ macro_rules! scene {
             )*)*
             /// The first id of every kind.
             pub first: First,
+            /// The first triangle of every mesh, counted through all meshes.
+            pub mesh_first: Vec<u32>,
             /// Boxes around all from the quads on, in the order of their ids.
             pub boxes: Vec<Aabb>,
             /// The tree of all but the planes, where the plan asks for one.
@@ -74,6 +76,8 @@ macro_rules! scene {
             pub settings: Settings,
             /// The tracer's plan for the scene, with reasons.
             pub plan: Plan,
+            /// What the caller chose.
+            pub(super) options: CompileOptions,
         }
 
         /// The first id of every kind of primitive.
@@ -103,6 +107,7 @@ macro_rules! scene {
                 Self {
                     $($($storage,)*)*
                     first,
+                    mesh_first: mesh_first(&description.meshes),
                     boxes,
                     bvh: None,
                     build_time: Duration::ZERO,
@@ -114,12 +119,21 @@ macro_rules! scene {
                     sky: description.sky.clone(),
                     settings: description.settings,
                     plan,
+                    options: options.clone(),
                 }
             }
         }
     };
 }
 for_each_kind! { scene }
+
+impl Scene {
+    /// The arrays of a description, without the tree.
+    pub(super) fn without_tree(description: &Description, options: &CompileOptions) -> Result<Self, Invalid> {
+        check(description)?;
+        Ok(Self::of(description, options))
+    }
+}
 
 /// The substance of a transparent solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,8 +186,7 @@ pub fn compile(description: &Description) -> Result<Scene, Invalid> {
 /// # Errors
 /// [`Invalid`] when [`check`] finds fault with it.
 pub fn compile_with(description: &Description, options: &CompileOptions) -> Result<Scene, Invalid> {
-    check(description)?;
-    let mut scene = Scene::of(description, options);
+    let mut scene = Scene::without_tree(description, options)?;
     if scene.plan.structure == Structure::Tree {
         let started = Instant::now();
         scene.bvh = Some(Bvh::build(&InTree(&scene)));
@@ -187,6 +200,16 @@ fn stored<K: Kind>(elements: &[K]) -> K::Storage {
     let mut storage = K::Storage::default();
     elements.iter().for_each(|element| element.store(&mut storage));
     storage
+}
+
+/// The first triangle of every mesh ([`Scene::mesh_first`]).
+fn mesh_first(meshes: &[Mesh]) -> Vec<u32> {
+    let begin = |next: &mut u32, mesh: &Mesh| {
+        let first = *next;
+        *next += mesh.triangles.len() as u32;
+        Some(first)
+    };
+    meshes.iter().scan(0, begin).collect()
 }
 
 /// The media of transparent materials, and which material makes which ([`Scene::medium_of`]).

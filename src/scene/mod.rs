@@ -4,13 +4,16 @@ mod builtin;
 mod check;
 mod choose;
 mod compile;
+mod construct;
 mod corners;
 mod description;
 mod in_tree;
 mod kinds;
 mod plan;
+mod primitive;
 #[cfg(feature = "files")]
 mod read;
+mod refit;
 mod rules;
 
 #[cfg(feature = "files")]
@@ -21,12 +24,15 @@ pub use compile::{CompileOptions, First, Medium, Scene, compile, compile_with};
 pub use description::*;
 pub use kinds::*;
 pub use plan::{Plan, ShadowStart, Structure, Tested};
+pub use primitive::{Primitive, PrimitiveKind};
 #[cfg(feature = "files")]
 pub use read::*;
+pub use refit::RefitError;
 
 /// Why a description cannot be rendered: the key at fault and what is wrong with it.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("{key}: {problem}")]
+#[non_exhaustive]
 pub struct Invalid {
     /// The key, as the TOML file spells its place: `sphere[3].radius`.
     pub key: String,

@@ -28,6 +28,7 @@ pub enum Structure {
 
 /// The work that the tracer does for a scene; what is absent costs nothing.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Plan {
     /// The numbers of primitives by kind, in the order of [`KINDS`].
     pub primitives: [usize; KINDS.len()],
@@ -63,6 +64,7 @@ pub struct Plan {
 
 /// How the primitives of a kind are tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Tested<'a> {
     /// The kind.
     pub kind: KindName,

@@ -5,6 +5,7 @@
 //! reflects (Whitted, *An Improved Illumination Model for Shaded Display*, 1980). What a transparent medium reflects and
 //! transmits is in [`crate::scene::Material`]; it casts a full shadow, as in Whitted's paper.
 
+mod interaction;
 mod light;
 mod medium;
 mod path;
@@ -18,6 +19,7 @@ mod texture;
 mod wave;
 mod whitted;
 
+pub use interaction::SurfaceInteraction;
 pub use path::{Segment, SegmentKind, path};
 #[cfg(feature = "lab")]
 pub(crate) use spawn::Offsets;

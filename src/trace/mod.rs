@@ -2,7 +2,8 @@
 //!
 //! Both work on a [`RayBatch`]. In a small scene its bounds leave out what none of its rays can meet, what depends on a
 //! common origin is computed once, then the packets go through the rest one by one (`candidates`, `packets`). In a
-//! larger one groups of its rays, or single ones, find their way through a tree of boxes (`tree`).
+//! larger one groups of its rays, or single ones, find their way through a tree of boxes (`tree`). [`intersect_rays`],
+//! [`occluded_rays`] and their `par_` forms take slices of [`Ray`]s instead, and pack the batches themselves.
 
 mod bounds;
 mod candidates;
@@ -11,11 +12,15 @@ mod packet;
 mod packets;
 mod prefetch;
 mod query;
+mod ray;
+mod rays;
 mod scratch;
 mod single;
 mod tree;
 
 pub use crate::math::{BATCH, Blocked, HitBatch, NONE, RayBatch};
+pub use ray::Ray;
+pub use rays::{intersect_rays, occluded_rays, par_intersect_rays, par_occluded_rays};
 pub use scratch::Scratch;
 pub use single::{Hit, Probe, intersect_one, occluded_one};
 

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 pub struct Hit {
     /// Distance along the unit direction.
     pub t: f32,
-    /// The primitive's id.
+    /// The primitive's id; [`Scene::primitive`] tells what it stands for, and [`Scene::surface`] what is there.
     pub primitive: u32,
 }
 

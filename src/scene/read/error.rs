@@ -10,6 +10,7 @@ const MAX_QUOTE: usize = 300;
 
 /// Why a scene could not be read. `Display` is one line, whatever the file holds.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// The file cannot be opened or read.
     #[error("{}: {source}", one_line(path.display()))]

@@ -53,13 +53,13 @@ impl Lines {
 /// A ray in every lane.
 pub struct Line {
     /// Per axis, 1 / d.
-    inverse: [f32x8; 3],
+    pub inverse: [f32x8; 3],
     /// The number subtracted from the near face times the inverse.
-    near: [f32x8; 3],
+    pub near: [f32x8; 3],
     /// The number subtracted from the far face times the inverse.
-    far: [f32x8; 3],
+    pub far: [f32x8; 3],
     /// Which end of a box is the near one.
-    side: [usize; 3],
+    pub side: [usize; 3],
 }
 
 impl Line {

@@ -18,6 +18,7 @@ mod beam;
 mod beams;
 mod behind;
 mod bits;
+mod boxes;
 mod group;
 mod leaf;
 mod line;

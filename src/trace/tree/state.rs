@@ -42,7 +42,7 @@ impl Default for State {
 
 /// The largest number over the largest coordinate, 2⁶⁸, that a ray may start at: from beyond, products of the boxes'
 /// arithmetic would overflow, and whether a box is met would hang on the company.
-const TOO_FAR: f32 = (1u64 << 60) as f32;
+pub const TOO_FAR: f32 = (1u64 << 60) as f32;
 
 impl State {
     /// For a new batch; `triangles` says whether there are any.
