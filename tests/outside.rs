@@ -45,7 +45,7 @@ fn a_short_program_in_a_crate_of_its_own() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let manifest = format!(
         "[package]\nname = \"outside\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[dependencies]\n\
-         raypacket = {{ path = {root:?}, default-features = false }}\n\n[profile.dev]\nopt-level = 1\ndebug = false\n\n\
+         raypacket = {{ path = {root:?}, default-features = false }}\n\n[profile.dev]\ndebug = false\n\n\
          [workspace]\n"
     );
     fs::create_dir(folder.path().join("src")).expect("a folder");
