@@ -106,13 +106,13 @@ pub fn count(threads: usize) -> String {
     if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") }
 }
 
-/// Where `--json FILE|-` goes, checked before the work starts.
-pub enum Json {
+/// Where `--json FILE|-` and `--markdown FILE|-` go, checked before the work starts.
+pub enum Destination {
     Stdout,
     File(Target),
 }
 
-impl Json {
+impl Destination {
     pub fn new(path: &OsStr) -> Result<Self, Failure> {
         match path.to_str() {
             Some("-") => Ok(Self::Stdout),

@@ -1,7 +1,8 @@
 //! `raypacket bench`: rays a second.
 
-use super::args::{DEFAULT_SCENE, Json, Methods, Size, Threads};
+use super::args::{DEFAULT_SCENE, Destination, Methods, Size, Threads};
 use super::failure::Failure;
+use super::page::Page;
 use super::{input, print};
 use raypacket::geometry::methods::{Choice, SphereMethod};
 use raypacket::measure::bench;
@@ -26,13 +27,22 @@ pub struct Args {
     /// Write the results as JSON, with - to standard output
     #[arg(long, value_name = "FILE|-")]
     json: Option<OsString>,
+    /// Write the results as a page in Markdown that names this machine, with - to standard output
+    #[arg(long, value_name = "FILE|-")]
+    markdown: Option<OsString>,
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
     if args.rays.is_some() && args.scenes.len() > 1 {
         return Err(Failure::input("--rays goes with one scene, as its rays are made for one"));
     }
-    let json = args.json.as_deref().map(Json::new).transpose()?;
+    let [json, markdown] = [&args.json, &args.markdown].map(|path| path.as_deref().map(Destination::new).transpose());
+    let (json, markdown) = (json?, markdown?);
+    let to_stdout = [&json, &markdown].map(|to| matches!(to, Some(Destination::Stdout)));
+    if to_stdout == [true, true] {
+        return Err(Failure::input("only one of --json and --markdown can go to standard output"));
+    }
+    let quiet = to_stdout.contains(&true);
     let threads = args.threads.start();
     let scenes = input::load_all(&args.scenes)?;
     threads?;
@@ -47,13 +57,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let scene = input::compile(name, description, &choices)?;
         // The message names the ray file.
         let report = bench::run(description, &scene, &options).map_err(Failure::input)?;
-        if !matches!(json, Some(Json::Stdout)) {
+        if !quiet {
             print::line(&report)?;
         }
         reports.push(report);
     }
     if let Some(json) = &json {
         print::json(&reports, json)?;
+    }
+    if let Some(markdown) = &markdown {
+        print::whole(Page::new(&reports), markdown)?;
     }
     let wrong: Vec<&str> = (args.scenes.iter().zip(&reports)).filter(|(_, r)| !r.valid).map(|(n, _)| &**n).collect();
     if wrong.is_empty() {

@@ -10,6 +10,7 @@ mod chart;
 mod failure;
 mod info;
 mod input;
+mod page;
 mod plan;
 mod print;
 mod progress;

@@ -1,6 +1,6 @@
 //! Standard output, which may be a pipe that nobody reads any more.
 
-use super::args::Json;
+use super::args::Destination;
 use super::failure::Failure;
 use serde::Serialize;
 use std::fmt::Display;
@@ -18,14 +18,19 @@ pub fn line(text: impl Display) -> Result<(), Failure> {
 }
 
 /// Writes reports as JSON on one line: one as an object, several as an array.
-pub fn json<T: Serialize>(reports: &[T], to: &Json) -> Result<(), Failure> {
+pub fn json<T: Serialize>(reports: &[T], to: &Destination) -> Result<(), Failure> {
     let text = match reports {
         [one] => serde_json::to_string(one),
         many => serde_json::to_string(many),
     };
     let text = text.map_err(|e| Failure::runtime(format!("JSON: {e}")))?;
+    whole(text, to)
+}
+
+/// Writes a text, and ends its last line.
+pub fn whole(text: impl Display, to: &Destination) -> Result<(), Failure> {
     match to {
-        Json::Stdout => line(text),
-        Json::File(target) => target.write(|file| writeln!(file, "{text}")).map_err(Failure::runtime),
+        Destination::Stdout => line(text),
+        Destination::File(target) => target.write(|file| writeln!(file, "{text}")).map_err(Failure::runtime),
     }
 }

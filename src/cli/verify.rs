@@ -1,6 +1,6 @@
 //! `raypacket verify`: every kernel against the reference.
 
-use super::args::{Json, Methods, Size};
+use super::args::{Destination, Methods, Size};
 use super::failure::Failure;
 use super::{input, print};
 use raypacket::measure::verify;
@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let json = args.json.as_deref().map(Json::new).transpose()?;
+    let json = args.json.as_deref().map(Destination::new).transpose()?;
     let names = if args.scenes.is_empty() {
         scene::builtins().iter().map(|b| b.name.to_string()).collect()
     } else {
@@ -43,7 +43,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for (name, scene) in names.iter().zip(&scenes) {
         input::check(name, scene)?;
         let report = verify::verify_with(scene, &options, &Kernel::ALL, args.size.width, args.size.height);
-        if !matches!(json, Some(Json::Stdout)) {
+        if !matches!(json, Some(Destination::Stdout)) {
             print::line(&report)?;
         }
         reports.push(report);

@@ -86,6 +86,28 @@ fn bench_of_several_scenes_into_a_file() {
 }
 
 #[test]
+fn bench_as_a_page() {
+    let folder = folder();
+    let run = raypacket(folder.path(), "bench good.toml flake --size 32x16 --threads 1 --markdown a.md").good();
+    assert!(run.stdout.contains("good"), "{}", run.stdout);
+    let page = fs::read_to_string(folder.path().join("a.md")).unwrap();
+    assert!(page.starts_with("# Rates on ") && page.contains(raypacket::math::isa()), "{page}");
+    assert!(page.contains("\n## `good`, 32 × 16\n") && page.contains("\n## `flake`, 32 × 16\n"), "{page}");
+    assert_eq!(
+        page.matches("\n| query | rays | x1 | x4 | x8 |\n|---|---|---|---|---|\n| primary | 512 | ").count(),
+        2,
+        "{page}"
+    );
+    assert_eq!(page.matches("The tree was built in ").count(), 1, "{page}");
+
+    let alone = raypacket(folder.path(), "bench good.toml --size 32x16 --threads 1 --markdown -").good().stdout;
+    assert!(alone.starts_with("# Rates on ") && alone.ends_with("|\n"), "{alone}");
+    let both = raypacket(folder.path(), "bench good.toml --json - --markdown -");
+    both.failed(2, &["only one of --json and --markdown"]);
+    assert_eq!(names(folder.path()), ["a.md", "good.toml"]);
+}
+
+#[test]
 fn bench_of_a_ray_file() {
     let folder = folder();
     // One ray hits the sphere of `good.toml` at 4, one nothing, one is inactive.
