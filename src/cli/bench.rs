@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         print::json(&reports, json)?;
     }
     if let Some(markdown) = &markdown {
-        print::whole(Page::new(&reports), markdown)?;
+        print::whole(Page::new(&reports).to_string().trim_end(), markdown)?;
     }
     let wrong: Vec<&str> = (args.scenes.iter().zip(&reports)).filter(|(_, r)| !r.valid).map(|(n, _)| &**n).collect();
     if wrong.is_empty() {
