@@ -110,7 +110,7 @@ impl Wave {
     }
 }
 
-/// Watches the rays of a tile go by; `()` does not, at no cost.
+/// Watches the rays of a tile go by, a call for each wave; `()` does not.
 pub trait Observer {
     /// The eye rays.
     fn primary(&mut self, _rays: &RayBatch) {}
