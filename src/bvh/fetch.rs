@@ -42,7 +42,7 @@ impl<'a> Places<'a> {
         (self.first[kind as usize], self.stride[kind as usize]) = (first, bytes / size_of::<u32>());
     }
 
-    /// Fetches the children of a node whose bits are set, at least one.
+    /// Fetches the children of a node whose bits are set, at least one; nothing of a tree that stays near.
     #[inline(always)]
     pub(crate) fn fetch(&self, node: &Node, mut met: u32) {
         // One alone is next.
@@ -55,7 +55,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Fetches one child.
+    /// Fetches one child, unless the tree stays near.
     #[inline(always)]
     pub(crate) fn fetch_child(&self, child: Child) {
         if !self.far {
