@@ -13,7 +13,8 @@
 use super::{Film, PrimaryHits, tone_map};
 use crate::files::{FileError, Target};
 use crate::trace::NONE;
-use image::{ExtendedColorType, ImageFormat};
+use image::codecs::{openexr::OpenExrEncoder, png::PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
 use std::io::{self, Seek, Write};
 use std::path::Path;
 
@@ -115,27 +116,26 @@ pub fn write_aov(hits: &PrimaryHits, aov: Aov, width: usize, format: Format, tar
 }
 
 fn png(to: &mut (impl Write + Seek), pixels: &[[u8; 3]], width: usize) -> io::Result<()> {
-    encode(to, bytemuck::cast_slice(pixels), width, pixels.len(), ExtendedColorType::Rgb8, ImageFormat::Png)
+    encode(PngEncoder::new(to), bytemuck::cast_slice(pixels), width, pixels.len(), ExtendedColorType::Rgb8)
 }
 
 fn exr(to: &mut (impl Write + Seek), pixels: &[[f32; 3]], width: usize) -> io::Result<()> {
-    encode(to, bytemuck::cast_slice(pixels), width, pixels.len(), ExtendedColorType::Rgb32F, ImageFormat::OpenExr)
+    encode(OpenExrEncoder::new(to), bytemuck::cast_slice(pixels), width, pixels.len(), ExtendedColorType::Rgb32F)
 }
 
 fn encode(
-    to: &mut (impl Write + Seek),
+    encoder: impl ImageEncoder,
     bytes: &[u8],
     width: usize,
     pixels: usize,
     color: ExtendedColorType,
-    format: ImageFormat,
 ) -> io::Result<()> {
     let height = pixels.checked_div(width).unwrap_or(0);
     if height == 0 || width * height != pixels {
         return Err(io::Error::other(format!("{pixels} pixels do not make rows of {width}")));
     }
     let side = |pixels: usize| u32::try_from(pixels).map_err(io::Error::other);
-    image::write_buffer_with_format(to, bytes, side(width)?, side(height)?, color, format).map_err(io::Error::other)
+    encoder.write_image(bytes, side(width)?, side(height)?, color).map_err(io::Error::other)
 }
 
 /// 0RGB to its three bytes.

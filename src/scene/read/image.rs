@@ -9,7 +9,8 @@ use std::{
     sync::Arc,
 };
 
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::codecs::{jpeg::JpegDecoder, png::PngDecoder};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageResult, Limits, Luma, Rgba};
 
 use super::{
     assets::Assets,
@@ -101,9 +102,9 @@ impl<'a> Images<'a> {
     fn rgb8(&mut self, bytes: &[u8]) -> Result<Texture, String> {
         let format = image::guess_format(bytes).ok();
         let format = format.filter(|f| [ImageFormat::Png, ImageFormat::Jpeg].contains(f));
-        let image = self.decode(bytes, format.ok_or(NOT_SRGB)?)?.into_rgb8();
+        let image = self.decode(bytes, format.ok_or(NOT_SRGB)?)?;
         let (width, height) = (image.width() as usize, image.height() as usize);
-        Ok(Texture { width, height, texels: image.as_raw().as_chunks().0.to_vec() })
+        Ok(Texture { width, height, texels: texels(image) })
     }
 
     fn linear(&mut self, bytes: &[u8]) -> Result<Panorama, String> {
@@ -117,15 +118,15 @@ impl<'a> Images<'a> {
     }
 
     /// The size is asked for, and judged, before there is any memory for the pixels.
+    ///
+    /// The decoders are named, as `ImageReader` would have all of them compiled, OpenEXR's too.
     fn decode(&mut self, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage, String> {
-        let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_IMAGE_SIDE);
         limits.max_image_height = Some(MAX_IMAGE_SIDE);
         // Four channels of 16 bits, and what a decoder needs besides.
         limits.max_alloc = Some(8 * MAX_IMAGE_PIXELS + (64 << 20));
-        reader.limits(limits);
-        let decoder = reader.into_decoder().map_err(|error| error.to_string())?;
+        let decoder = decoder(Cursor::new(bytes), format, limits).map_err(|error| error.to_string())?;
         let (width, height) = decoder.dimensions();
         self.count(width, height)?;
         DynamicImage::from_decoder(decoder).map_err(|error| error.to_string())
@@ -145,6 +146,26 @@ impl<'a> Images<'a> {
             format!("{width} × {height}: at most {MAX_IMAGE_PIXELS} pixels in all images, {} left", self.pixels_left)
         })?;
         Ok(())
+    }
+}
+
+fn decoder(bytes: Cursor<&[u8]>, format: ImageFormat, limits: Limits) -> ImageResult<Box<dyn ImageDecoder + '_>> {
+    if format == ImageFormat::Png {
+        return Ok(Box::new(PngDecoder::with_limits(bytes, limits)?));
+    }
+    let mut decoder = JpegDecoder::new(bytes)?;
+    decoder.set_limits(limits)?;
+    Ok(Box::new(decoder))
+}
+
+/// The colours alone, eight bits a channel.
+///
+/// The common ones are converted here, as `image` is compiled without optimisation.
+fn texels(image: DynamicImage) -> Vec<[u8; 3]> {
+    match image {
+        DynamicImage::ImageRgba8(image) => image.pixels().map(|&Rgba([r, g, b, _])| [r, g, b]).collect(),
+        DynamicImage::ImageLuma8(image) => image.pixels().map(|&Luma([grey])| [grey; 3]).collect(),
+        other => other.into_rgb8().as_raw().as_chunks().0.to_vec(),
     }
 }
 
