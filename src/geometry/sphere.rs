@@ -17,7 +17,7 @@
 
 use super::methods::SphereMethod;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test};
+use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, Variant};
 use crate::math::{LaneMask, Lanes, MAX_LANES, Vec3, angle};
 
 /// Spheres, column by column.
@@ -52,13 +52,15 @@ numbers! {
         /// r².
         r2: T,
     }
-    /// A sphere as seen from the rays' origin, for [`double`].
-    ExactSphere {
+    /// A sphere as seen from the rays' origin by the [`Slow`] methods.
+    NamedSphere {
         /// f = o − center, rounded.
         f: Vec3,
-        /// The rounding that f lacks: o − center − f.
+        /// r².
+        r2: T,
+        /// For [`double`]: the rounding that f lacks, o − center − f.
         lost: Vec3,
-        /// r.
+        /// For [`double`]: r.
         radius: T,
     }
 }
@@ -97,10 +99,10 @@ impl Bounded for Spheres {
 
 impl Primitives for Spheres {
     type Shape<T: Number> = SphereShape<T>;
-    type Variant = Sides;
+    type Variant = Roots;
     type Seen<T: Copy> = SeenSphere<T>;
     type Aim<L: Lanes> = Vec3<L>;
-    type Named = SphereMethod;
+    type Named = Slow;
 
     #[inline(always)]
     fn materials(&self) -> &[u32] {
@@ -115,8 +117,8 @@ impl Primitives for Spheres {
         SphereShape { center: self.center(i).into(), radius: self.radius(i) }
     }
     #[inline(always)]
-    fn variant(&self, i: usize) -> Sides {
-        self.sides[i]
+    fn variant(&self, i: usize) -> Roots {
+        if self.method == SphereMethod::Quadratic { Roots::Quadratic } else { Roots::Stable(self.sides[i]) }
     }
     #[inline(always)]
     fn zip<A: Number, B: Number, C: Number>(
@@ -127,7 +129,7 @@ impl Primitives for Spheres {
         a.zip(b, f)
     }
     #[inline(always)]
-    fn seen<L: Lanes>(sphere: &SphereShape<L>, _: Sides, origin: Vec3<L>) -> SeenSphere<L> {
+    fn seen<L: Lanes>(sphere: &SphereShape<L>, _: Roots, origin: Vec3<L>) -> SeenSphere<L> {
         SeenSphere::new(sphere, origin)
     }
     #[inline(always)]
@@ -135,12 +137,19 @@ impl Primitives for Spheres {
         seen.map(|number| L::splat(*number))
     }
     #[inline(always)]
-    fn nearest<L: Lanes>(seen: &SeenSphere<L>, sides: Sides, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-        stable(seen, sides, *d, t_min, t_max)
+    fn nearest<L: Lanes>(seen: &SeenSphere<L>, roots: Roots, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        match roots {
+            Roots::Stable(sides) => stable(seen, sides, *d, t_min, t_max),
+            Roots::Quadratic => quadratic(seen, *d, t_min, t_max),
+        }
     }
     #[inline(always)]
-    fn named(&self) -> Option<SphereMethod> {
-        (self.method != SphereMethod::Stable).then_some(self.method)
+    fn named(&self) -> Option<Slow> {
+        match self.method {
+            SphereMethod::Stable | SphereMethod::Quadratic => None,
+            SphereMethod::Geometric => Some(Slow::Geometric),
+            SphereMethod::Double => Some(Slow::Double),
+        }
     }
 
     #[inline(always)]
@@ -161,39 +170,60 @@ impl Primitives for Spheres {
     }
 }
 
-/// A sphere as its methods see it.
-#[derive(Clone, Copy, Debug)]
-pub enum NamedSphere<T: Copy> {
-    /// All but [`double`].
-    Rounded(SeenSphere<T>),
-    /// [`double`].
-    Exact(ExactSphere<T>),
+/// How the two roots of a sphere are found that the plan may choose: the variant of its test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Roots {
+    /// By [`stable`], which alone knows sides apart.
+    Stable(Sides),
+    /// By [`quadratic`].
+    Quadratic,
 }
 
-impl Test<Spheres> for SphereMethod {
+impl Default for Roots {
+    fn default() -> Self {
+        Self::Stable(Sides::Both)
+    }
+}
+
+impl Variant for Roots {
+    fn code(self) -> u8 {
+        match self {
+            Self::Stable(sides) => sides.code(),
+            Self::Quadratic => 3,
+        }
+    }
+}
+
+/// The methods that no plan chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slow {
+    /// [`geometric`].
+    Geometric,
+    /// [`double`].
+    Double,
+}
+
+impl Test<Spheres> for Slow {
     type Seen<T: Copy> = NamedSphere<T>;
     #[inline(always)]
-    fn seen<L: Lanes>(self, sphere: &SphereShape<L>, _: Sides, origin: Vec3<L>) -> NamedSphere<L> {
-        match self {
-            Self::Double => NamedSphere::Exact(ExactSphere::new(sphere, origin)),
-            _ => NamedSphere::Rounded(SeenSphere::new(sphere, origin)),
-        }
+    fn seen<L: Lanes>(self, sphere: &SphereShape<L>, _: Roots, origin: Vec3<L>) -> NamedSphere<L> {
+        let seen = SeenSphere::new(sphere, origin);
+        // What a subtraction rounds off, exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
+        let part = seen.f - origin;
+        let lost = (origin - (seen.f - part)) - (sphere.center + part);
+        NamedSphere { f: seen.f, r2: seen.r2, lost, radius: sphere.radius }
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &NamedSphere<f32>) -> NamedSphere<L> {
-        match seen {
-            NamedSphere::Rounded(seen) => NamedSphere::Rounded(seen.map(|number| L::splat(*number))),
-            NamedSphere::Exact(seen) => NamedSphere::Exact(seen.map(|number| L::splat(*number))),
-        }
+        seen.map(|number| L::splat(*number))
     }
-    /// Only the default knows sides apart.
     #[inline(always)]
-    fn nearest<L: Lanes>(self, seen: &NamedSphere<L>, sides: Sides, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-        match (seen, self) {
-            (NamedSphere::Exact(seen), _) => double(seen, *d, t_min, t_max),
-            (NamedSphere::Rounded(seen), Self::Quadratic) => quadratic(seen, *d, t_min, t_max),
-            (NamedSphere::Rounded(seen), Self::Geometric) => geometric(seen, *d, t_min, t_max),
-            (NamedSphere::Rounded(seen), _) => stable(seen, sides, *d, t_min, t_max),
+    fn nearest<L: Lanes>(self, sphere: &NamedSphere<L>, _: Roots, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+        let NamedSphere { f, r2, lost, radius } = *sphere;
+        match self {
+            Self::Geometric => geometric(f, r2, *d, t_min, t_max),
+            // Number by number, so that the other has its own in registers.
+            Self::Double => double([f, lost], radius, [d.x, d.y, d.z], t_min, t_max),
         }
     }
 }
@@ -205,18 +235,6 @@ impl<L: Lanes> SeenSphere<L> {
         let f = origin - sphere.center;
         let r2 = sphere.radius * sphere.radius;
         Self { f, c: f.dot(f) - r2, r2 }
-    }
-}
-
-impl<L: Lanes> ExactSphere<L> {
-    /// A sphere as seen from `origin`.
-    #[inline(always)]
-    pub fn new(sphere: &SphereShape<L>, origin: Vec3<L>) -> Self {
-        let SphereShape { center, radius } = *sphere;
-        let f = origin - center;
-        // What a subtraction rounds off, exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
-        let part = f - origin;
-        Self { f, lost: (origin - (f - part)) - (center + part), radius }
     }
 }
 
@@ -271,44 +289,50 @@ pub fn quadratic<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
 
 /// The lecture's, from outside only; see the module's text.
 #[inline(always)]
-pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-    let along = -seen.f.dot(direction);
-    let q = direction.mul_add(along, seen.f);
+pub fn geometric<L: Lanes>(f: Vec3<L>, r2: L, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let along = -f.dot(direction);
+    let q = direction.mul_add(along, f);
     let p2 = q.dot(q);
-    let possible = p2.le(seen.r2);
+    let possible = p2.le(r2);
     if !possible.any() {
         return None;
     }
-    let t = along - (seen.r2 - p2).sqrt();
+    let t = along - (r2 - p2).sqrt();
     let inside = possible & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
 
 /// [`quadratic`] in `f64`; see the module's text.
 #[inline(never)]
-pub fn double<L: Lanes>(seen: &ExactSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+fn double<L: Lanes>([f, lost]: [Vec3<L>; 2], radius: L, d: [L; 3], t_min: L, t_max: L) -> LaneHits<L> {
+    let [f, lost] = [[f.x, f.y, f.z], [lost.x, lost.y, lost.z]];
     let lanes = |v: L| {
         let mut lanes = [0.0; MAX_LANES];
         v.store(&mut lanes);
-        lanes.map(f64::from)
+        lanes
     };
-    let ExactSphere { lost, radius, .. } = *seen;
-    let f = [(seen.f.x, lost.x), (seen.f.y, lost.y), (seen.f.z, lost.z)].map(|(f, lost)| (lanes(f), lanes(lost)));
-    let d = [direction.x, direction.y, direction.z].map(lanes);
-    let (radius, t_min) = (lanes(radius), lanes(t_min));
+    let (radius, least) = (lanes(radius), lanes(t_min));
+    // The dot products f f, f d and d d, lane by lane.
+    let mut dots = [[0.0; MAX_LANES]; 3];
+    for axis in 0..3 {
+        let (f, lost, d) = (lanes(f[axis]), lanes(lost[axis]), lanes(d[axis]));
+        for i in 0..L::WIDTH {
+            let (f, d) = (f64::from(f[i]) + f64::from(lost[i]), f64::from(d[i]));
+            dots[0][i] += f * f;
+            dots[1][i] += f * d;
+            dots[2][i] += d * d;
+        }
+    }
     let mut t = [f32::NAN; MAX_LANES];
     for i in 0..L::WIDTH {
-        let f = [0, 1, 2].map(|axis| f[axis].0[i] + f[axis].1[i]);
-        let d = [0, 1, 2].map(|axis| d[axis][i]);
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        let (a, b) = (dot(d, d), dot(f, d));
+        let (c, b, a) = (dots[0][i] - f64::from(radius[i]) * f64::from(radius[i]), dots[1][i], dots[2][i]);
         // NaN where there is no root, and so no hit.
-        let root = (b * b - a * (dot(f, f) - radius[i] * radius[i])).sqrt();
+        let root = (b * b - a * c).sqrt();
         let near = (-b - root) / a;
-        t[i] = if near > t_min[i] { near as f32 } else { ((root - b) / a) as f32 };
+        t[i] = if near > f64::from(least[i]) { near as f32 } else { ((root - b) / a) as f32 };
     }
     let t = L::load(&t);
-    let inside = t.gt(L::load(&t_min.map(|t| t as f32))) & t.lt(t_max);
+    let inside = t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
 

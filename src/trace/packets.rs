@@ -39,7 +39,7 @@ pub fn trace<Q: Query, F: Form, L: Lanes, C: Contents>(
             t_min: L::load(&rays.t_min[at..]),
             t_max,
         };
-        visit::<F, L, Q::Found<L>, C>(scene, candidates, common, packet, &mut found);
+        visit::<F, L, Q::Found<L>, C>(scene, candidates, common, &packet, (rays, at), &mut found);
         take(at, active, &found);
     }
 }
@@ -57,28 +57,29 @@ fn visit<F: Form, L: Lanes, A: Found<L>, C: Contents>(
     scene: &Scene,
     lists: &Lists<F>,
     (planes, spheres, triangles): Common<F>,
-    packet: Packet<L>,
+    packet: &Packet<L>,
+    batch: (&RayBatch, usize),
     found: &mut A,
 ) {
-    each::<F, _, _, L, A, C>(Standard, planes, &packet, found);
+    each::<F, _, _, L, A, C>(Standard, planes, packet, found);
     if found.done() {
         return;
     }
-    each::<F, _, _, L, A, C>(Standard, spheres, &packet, found);
+    each::<F, _, _, L, A, C>(Standard, spheres, packet, found);
     if C::ALL && !lists.spheres.named.is_empty() {
-        each_named::<F, _, L, A>(&scene.spheres, &lists.spheres, &packet, found);
+        each_named::<F, _, L, A>(&scene.spheres, &lists.spheres, batch, found);
     }
     if found.done() {
         return;
     }
     if C::TRIANGLES {
-        each::<F, _, _, L, A, C>(Standard, triangles, &packet, found);
+        each::<F, _, _, L, A, C>(Standard, triangles, packet, found);
         if C::ALL && !lists.triangles.named.is_empty() {
-            each_named::<F, _, L, A>(&scene.triangles, &lists.triangles, &packet, found);
+            each_named::<F, _, L, A>(&scene.triangles, &lists.triangles, batch, found);
         }
     }
     if C::ALL && lists.more && !found.done() {
-        visit_more::<F, L, A>(scene, lists, &packet, found);
+        visit_more::<F, L, A>(scene, lists, batch, found);
     }
 }
 
@@ -87,14 +88,17 @@ macro_rules! more {
         unbounded { $_p:tt }
         bounded { $_s:tt $_t:tt $(($field:ident: $Storage:ident, $($_f:tt)*))* }
     ) => {
-        /// The kinds after the triangles.
+        /// The kinds after the triangles, by rays `at` and on.
+        ///
+        /// The packet is loaded again, as one that was just written to be passed on is slow to read.
         #[inline(never)]
         fn visit_more<F: Form, L: Lanes, A: Found<L>>(
             scene: &Scene,
             lists: &Lists<F>,
-            packet: &Packet<L>,
+            (rays, at): (&RayBatch, usize),
             found: &mut A,
         ) {
+            let packet = &Packet::of(rays, at);
             let faces = Aim::new(packet.direction);
             $(
                 each_boxed::<F, _, L, A>(&scene.$field, scene.first.$field, &lists.$field, &faces, packet, found);
@@ -137,11 +141,11 @@ fn each<F: Form, K: Primitives, T: Test<K>, L: Lanes, A: Found<L>, C: Contents>(
 fn each_named<F: Form, K: Primitives, L: Lanes, A: Found<L>>(
     kind: &K,
     list: &List<F, K>,
-    packet: &Packet<L>,
+    (rays, at): (&RayBatch, usize),
     found: &mut A,
 ) {
     if let Some(test) = kind.named() {
-        each::<F, K, K::Named, L, A, Everything>(test, &list.named, packet, found);
+        each::<F, K, K::Named, L, A, Everything>(test, &list.named, &Packet::of(rays, at), found);
     }
 }
 

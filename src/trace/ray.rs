@@ -1,6 +1,6 @@
 //! A ray as a plain struct, for whoever keeps rays in arrays of their own.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A ray, and the open interval (`t_min`, `t_max`) of distances in which hits count.
 ///
@@ -33,5 +33,10 @@ impl Ray {
     /// The point at the distance `t`.
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
+    }
+
+    /// Origin and direction in `f64`, the latter brought to length 1: the exact ray that stands in the `f32`s.
+    pub fn line(&self) -> (DVec3, DVec3) {
+        (self.origin.as_dvec3(), self.direction.as_dvec3().normalize())
     }
 }

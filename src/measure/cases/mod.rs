@@ -26,32 +26,11 @@ mod tests;
 mod torus;
 mod triangle;
 
-use glam::{DVec3, Vec3};
-
 use super::random::Pcg;
 use crate::scene::Description;
 
+pub use crate::trace::Ray;
 pub use table::ALL;
-
-/// A ray that is traced over the open interval (`t_min`, `t_max`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
-    /// Where it starts.
-    pub origin: Vec3,
-    /// Of length 1, within 2 ε.
-    pub direction: Vec3,
-    /// Not below zero.
-    pub t_min: f32,
-    /// May be infinite.
-    pub t_max: f32,
-}
-
-impl Ray {
-    /// Origin and direction in `f64`, the latter brought to length 1: the exact ray that stands in the `f32`s.
-    pub fn line(&self) -> (DVec3, DVec3) {
-        (self.origin.as_dvec3(), self.direction.as_dvec3().normalize())
-    }
-}
 
 /// The subject that a case judges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

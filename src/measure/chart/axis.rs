@@ -11,6 +11,9 @@ const NONE: f64 = 0.1;
 /// Where 0 is then, and half of how far its band reaches.
 const ZERO: f64 = 0.03;
 
+/// How far curves with the same values lie from each other.
+const APART: f64 = 2.0;
+
 /// More labelled decades than this, and every second or third is labelled.
 const LABELS: i32 = 7;
 
@@ -165,6 +168,13 @@ impl Panel {
         if !y_name.is_empty() {
             canvas.upward([left - 56.0, top + height / 2.0], TEXT, y_name);
         }
+    }
+
+    /// A panel for the lines of curve `i` of `count`, a little higher or lower than others', so that curves with the same
+    /// values are seen side by side.
+    pub fn beside(&self, i: usize, count: usize) -> Self {
+        let [left, top] = self.at;
+        Self { at: [left, top + APART * (i as f64 - (count as f64 - 1.0) / 2.0)], ..*self }
     }
 
     /// Connects points.

@@ -88,10 +88,10 @@ fn svg(sweep: &Sweep, machine: &Machine) -> String {
             canvas.text([MARGIN + 66.0, top - 16.0], Anchor::Left, HEADING, heading);
             let panel = Panel { at: [MARGIN + 66.0, top], size: [WIDTH - 2.0 * MARGIN - 90.0, 255.0], x, y };
             panel.draw(canvas, if row == 0 { " " } else { "size of the scene (world units)" }, "rays (per million)");
-            for curve in sweep.curves.iter().rev() {
+            for (i, curve) in sweep.curves.iter().enumerate().rev() {
                 let (_, color, width) = look(curve.offset);
                 let points: Vec<_> = sweep.scales.iter().zip(rates(curve)).map(|(&x, &y)| [x, y]).collect();
-                panel.line(canvas, &points, color, width);
+                panel.beside(i, sweep.curves.len()).line(canvas, &points, color, width);
             }
         }
         let [acne, leaks] = sweep.rays.map(style::thousands);
@@ -101,7 +101,7 @@ fn svg(sweep: &Sweep, machine: &Machine) -> String {
                  cylinder, each alone. Leaks on {leaks} rays under an",
             ),
             "occluder between 10⁻⁵ and 10⁻¹ of the scene's size above a sphere or plane. Things lie within 4 sizes of \
-             the world's origin."
+             the world's origin. Curves with the same values are drawn side by side."
                 .to_owned(),
         ];
         caption(canvas, HEIGHT, &notes, machine);

@@ -1,15 +1,22 @@
 //! `frames`: the time of whole frames against their error.
 
+use plotters::prelude::RGBColor;
+
 use super::axis::{Axis, Panel};
-use super::canvas::{Anchor, Canvas, Marker};
+use super::canvas::{Anchor, Canvas, Marker, Place};
 use super::job::{Chart, Context};
-use super::style::{GREY, HEADING, INK, Key, MARGIN, caption, color, legend, title};
+use super::style::{HEADING, Key, MARGIN, SMALL, TEXT, caption, color, legend, short, title};
 use super::table::Table;
-use crate::measure::lab::{Frame, FramesOf, Machine, frames, frontier};
+use crate::measure::lab::{Frame, FramesOf, Machine, PLANNED, frames};
 use crate::render::Kernel;
 
 const WIDTH: f64 = 1440.0;
-const HEIGHT: f64 = 904.0;
+
+/// Where the lines of methods start, how high one is, and the room for its name and for a value behind a bar.
+const METHODS: f64 = 500.0;
+const LINE: f64 = 22.0;
+const NAME: f64 = 180.0;
+const VALUE: f64 = 54.0;
 
 pub fn draw(name: &str, context: &Context) -> Result<Chart, String> {
     let scenes = frames(context.budget, context.progress)?;
@@ -53,6 +60,10 @@ fn table(scenes: &[FramesOf]) -> Table {
     table
 }
 
+fn color_of(kernel: Kernel) -> RGBColor {
+    color(kernel as usize)
+}
+
 fn marker(kernel: Kernel) -> Marker {
     match kernel {
         Kernel::X1 => Marker::Circle,
@@ -61,79 +72,77 @@ fn marker(kernel: Kernel) -> Marker {
     }
 }
 
-/// All methods of all scenes, each once.
-fn method_names(scenes: &[FramesOf]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for frame in scenes.iter().flat_map(|s| &s.frames) {
-        if !names.contains(&&*frame.method) {
-            names.push(&frame.method);
-        }
-    }
-    names
-}
-
-/// A row of panels: its name, and what it shows of a frame.
-type Row = (&'static str, fn(&Frame) -> f64);
-
-const ROWS: [Row; 2] = [
-    ("pixels off by more than 1/255 (%)", |f| f.error.off * 100.0),
-    ("root mean square error (1/255)", |f| f.error.rms),
-];
-
 fn svg(scenes: &[FramesOf], context: &Context) -> String {
     let machine: &Machine = context.machine;
-    Canvas::draw(WIDTH, HEIGHT, |canvas| {
+    let most = scenes.iter().map(|s| methods(s).count()).max().unwrap_or(0) as f64;
+    let height = METHODS + LINE * most + 90.0;
+    Canvas::draw(WIDTH, height, |canvas| {
         title(
             canvas,
             "Whole frames: time against error",
-            "1, 4 and 9 samples a pixel, from left to right along each line; the error is against the converged \
-             picture of the planned methods.",
+            "Above: 1, 4 and 9 samples a pixel by the planned methods, against the converged picture. Below: one method \
+             changed, and the share of pixels that it moves by more than 1/255.",
         );
-        let names = method_names(scenes);
-        let mut entries: Vec<_> =
-            Kernel::ALL.iter().map(|&k| (Key::Point(marker(k), GREY), k.name().to_owned())).collect();
-        entries.push((Key::Dashed(INK, 1.5), "Pareto frontier".into()));
-        legend(canvas, [MARGIN, 88.0], &entries);
-        let entries: Vec<_> = names.iter().enumerate().map(|(i, n)| (Key::Patch(color(i)), (*n).to_owned())).collect();
-        for (row, entries) in entries.chunks(6).enumerate() {
-            legend(canvas, [MARGIN, 112.0 + 22.0 * row as f64], entries);
-        }
+        let widths: Vec<_> =
+            Kernel::ALL.iter().map(|&k| (Key::Point(marker(k), color_of(k)), k.name().to_owned())).collect();
+        legend(canvas, [MARGIN, 92.0], &widths);
         let column = (WIDTH - 2.0 * MARGIN) / scenes.len().max(1) as f64;
         for (i, scene) in scenes.iter().enumerate() {
             let left = MARGIN + column * i as f64 + 66.0;
-            canvas.text([left, 160.0], Anchor::Left, HEADING, scene.scene);
-            let x = Axis::tight(scene.frames.iter().flat_map(|f| [f.time.low, f.time.high]));
-            for (row, (name, error)) in ROWS.into_iter().enumerate() {
-                let y = Axis::tight(scene.frames.iter().map(error));
-                let at = [left, 174.0 + row as f64 * 345.0];
-                let panel = Panel { at, size: [column - 96.0, 295.0], x, y };
-                panel.draw(canvas, if row == 1 { "time (ms per frame)" } else { " " }, if i == 0 { name } else { "" });
-                points(canvas, &panel, scene, &names, error);
-            }
+            canvas.text([left, 128.0], Anchor::Left, HEADING, scene.scene);
+            samples(canvas, [left, 144.0], column - 96.0, scene, i == 0);
+            compared(canvas, [left - 66.0, METHODS], column - 30.0, scene);
         }
-        caption(canvas, HEIGHT, &notes(scenes, context), machine);
+        caption(canvas, height, &notes(scenes, context), machine);
     })
 }
 
-fn points(canvas: &mut Canvas, panel: &Panel, scene: &FramesOf, names: &[&str], error: fn(&Frame) -> f64) {
-    let color_of = |f: &Frame| color(names.iter().position(|n| *n == f.method).unwrap_or(0));
-    let all: Vec<[f64; 2]> = scene.frames.iter().map(|f| [f.time.median, error(f)]).collect();
-    let samples = scene.frames.iter().map(|f| f.samples).max().unwrap_or(1) as usize;
-    // The plan comes last, over all others.
-    for (frames, places) in scene.frames.chunks(samples).zip(all.chunks(samples)).rev() {
-        panel.line(canvas, places, color_of(&frames[0]), 1.0);
-    }
-    let mut steps: Vec<[f64; 2]> = Vec::new();
-    for &i in &frontier(&all) {
-        if let Some(last) = steps.last().copied() {
-            steps.push([all[i][0], last[1]]);
+/// The planned methods: a line a width, from few samples to many.
+fn samples(canvas: &mut Canvas, at: Place, width: f64, scene: &FramesOf, first: bool) {
+    let planned = || scene.frames.iter().filter(|f| f.method == PLANNED);
+    let x = Axis::tight(planned().flat_map(|f| [f.time.low, f.time.high]));
+    let y = Axis::tight(planned().map(|f| f.error.rms));
+    let panel = Panel { at, size: [width, 250.0], x, y };
+    panel.draw(canvas, "time (ms per frame)", if first { "root mean square error (1/255)" } else { "" });
+    for kernel in &Kernel::ALL {
+        let places: Vec<_> = planned().filter(|f| f.kernel == *kernel).map(|f| [f.time.median, f.error.rms]).collect();
+        panel.line(canvas, &places, color_of(*kernel), 1.5);
+        for place in places {
+            canvas.marker(panel.place(place[0], place[1]), marker(*kernel), 5.0, color_of(*kernel));
         }
-        steps.push(all[i]);
     }
-    panel.dashed(canvas, &steps, INK, 1.5);
-    for (frame, place) in scene.frames.iter().zip(&all).rev() {
-        canvas.marker(panel.place(place[0], place[1]), marker(frame.kernel), 4.5, color_of(frame));
+}
+
+/// The frames with one sample a pixel at the widest: the plan's, and those of other methods.
+fn methods(scene: &FramesOf) -> impl Iterator<Item = &Frame> {
+    scene.frames.iter().filter(|f| f.samples == 1 && f.kernel == Kernel::default())
+}
+
+/// A line a method: its name, how long a frame takes, and how far its picture is from the plan's.
+fn compared(canvas: &mut Canvas, [left, top]: Place, width: f64, scene: &FramesOf) {
+    let bar = (width - NAME) / 2.0 - VALUE;
+    let longest = methods(scene).map(|f| f.time.median).fold(0.0, f64::max);
+    let pixels = Axis::decades([0.001, 100.0]).with_zero();
+    let columns = [left + NAME, left + NAME + bar + VALUE];
+    for (x, head) in columns.into_iter().zip(["ms per frame", "pixels moved (%)"]) {
+        canvas.text([x, top - 20.0], Anchor::Left, SMALL, head);
     }
+    for (i, frame) in methods(scene).enumerate() {
+        let y = top + LINE * i as f64;
+        canvas.text([left + NAME - 8.0, y], Anchor::Right, TEXT, &frame.method);
+        let moved = frame.apart.off * 100.0;
+        let shares = [frame.time.median / longest, if moved > 0.0 { pixels.position(moved) } else { 0.0 }];
+        let values = [short(frame.time.median), if moved > 0.0 { percent(moved) } else { "0".into() }];
+        let color = color(usize::from(frame.method != PLANNED));
+        for ((x, share), value) in columns.into_iter().zip(shares).zip(values) {
+            canvas.rect([x, y - 6.0], [x + (bar * share).max(1.0), y + 6.0], color);
+            canvas.text([x + bar * share + 6.0, y], Anchor::Left, SMALL, &value);
+        }
+    }
+}
+
+fn percent(value: f64) -> String {
+    if value < 0.1 { format!("{value:.3}") } else { format!("{value:.1}") }
 }
 
 fn notes(scenes: &[FramesOf], context: &Context) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! `speed-error`: what speed costs in accuracy.
 
 use super::axis::{Axis, Panel};
-use super::canvas::{Anchor, Canvas, Font, Marker};
+use super::canvas::{Anchor, Canvas, Font, Marker, Place};
 use super::job::{Chart, Context};
 use super::style::{self, GREY, HEADING, INK, Key, MARGIN, TEXT, caption, color, legend, title};
 use super::table::{Table, optional};
@@ -127,6 +127,10 @@ fn svg(subjects: &[SpeedOf], machine: &Machine) -> String {
             let x = Axis::tight(subject.points.iter().flat_map(|p| [p.time.low, p.time.high]));
             for (row, &(y, name)) in rows.iter().enumerate() {
                 let at = [left, 172.0 + row as f64 * 330.0];
+                if row == 0 && alike(subject) {
+                    same_error(canvas, at, subject);
+                    continue;
+                }
                 let panel = Panel { at, size: [column - 96.0, 280.0], x, y };
                 panel.draw(canvas, if row == 1 { "time (ns per ray)" } else { " " }, if i == 0 { name } else { "" });
                 points(canvas, &panel, subject, row);
@@ -134,6 +138,30 @@ fn svg(subjects: &[SpeedOf], machine: &Machine) -> String {
         }
         caption(canvas, HEIGHT, &notes(subjects), machine);
     })
+}
+
+/// Whether the errors of t of all methods are the same within a factor of two.
+fn alike(subject: &SpeedOf) -> bool {
+    let within = |error: fn(&Point) -> f64| {
+        let (low, high) =
+            subject.points.iter().map(error).fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), e| (a.min(e), b.max(e)));
+        high <= 2.0 * low
+    };
+    within(|p| p.errors.t.median) && within(|p| p.errors.t.p999)
+}
+
+/// What is said where the error of t tells no method from another.
+fn same_error(canvas: &mut Canvas, [left, top]: Place, subject: &SpeedOf) {
+    let Some(point) = subject.points.first() else { return };
+    let [median, p999] = [point.errors.t.median, point.errors.t.p999].map(style::short);
+    let lines = [
+        "The error of t tells these methods from each other by less".to_owned(),
+        format!("than a factor of two: median {median} ulps, 99.9th percentile {p999}."),
+        "What they differ in is which rays they hit.".to_owned(),
+    ];
+    for (i, line) in lines.iter().enumerate() {
+        canvas.text([left, top + 100.0 + 20.0 * i as f64], Anchor::Left, Font { color: GREY, ..TEXT }, line);
+    }
 }
 
 fn lanes(kernel: Kernel) -> &'static str {
@@ -166,11 +194,13 @@ fn points(canvas: &mut Canvas, panel: &Panel, subject: &SpeedOf, row: usize) {
         }
         steps.push(all[i]);
     }
+    let methods = subject.points.len() / Kernel::ALL.len();
+    let panels: Vec<Panel> = (0..methods).map(|method| panel.beside(method, methods)).collect();
     for (method, widths) in all.chunks(Kernel::ALL.len()).enumerate() {
-        panel.line(canvas, widths, color(method), 1.0);
+        panels[method].line(canvas, widths, color(method), 1.0);
     }
     for (i, (p, &[x, y])) in subject.points.iter().zip(&all).enumerate() {
-        let color = color(i / Kernel::ALL.len());
+        let (panel, color) = (panels[i / Kernel::ALL.len()], color(i / Kernel::ALL.len()));
         panel.line(canvas, &[[p.time.low, y], [p.time.high, y]], color, 1.0);
         if row == 0 {
             panel.line(canvas, &[[x, p.errors.t.median], [x, y]], color, 1.0);
@@ -180,7 +210,8 @@ fn points(canvas: &mut Canvas, panel: &Panel, subject: &SpeedOf, row: usize) {
     }
     panel.dashed(canvas, &steps, INK, 1.5);
     for (i, (p, &[x, y])) in subject.points.iter().zip(&all).enumerate() {
-        canvas.marker(panel.place(x, y), marker(p.kernel), 5.0, color(i / Kernel::ALL.len()));
+        let method = i / Kernel::ALL.len();
+        canvas.marker(panels[method].place(x, y), marker(p.kernel), 5.0, color(method));
     }
 }
 

@@ -113,7 +113,7 @@ fn frames_of(name: &'static str, budget: &Budget, progress: &dyn Fn(f32)) -> Res
 }
 
 /// The name of the plan's methods.
-const PLANNED: &str = "planned";
+pub const PLANNED: &str = "planned";
 
 /// The plan at every width, and every other method of what the scene has at the widest.
 fn contestants(description: &Description, plan: &Methods) -> Vec<(String, Option<Choice>, &'static [Kernel])> {

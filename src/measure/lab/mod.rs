@@ -18,7 +18,7 @@ mod truth;
 
 pub use errors::{Errors, Quantiles, percentile, ulps};
 pub use failure::{CaseFailure, Curve, failures};
-pub use frames::{Frame, FramesOf, SCENES, frames};
+pub use frames::{Frame, FramesOf, PLANNED, SCENES, frames};
 pub use frontier::frontier;
 pub use heat::{Cell, HEATS, Heat, HeatMap, HeatName, heat};
 pub use image::{Difference, difference};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use glam::{DVec3, dvec3};
+use glam::{DVec3, Vec3, dvec3};
 
 use super::surfaces::torus;
 use super::*;

@@ -1,6 +1,6 @@
 //! Distances from surfaces, by formulas that do without those of the makers.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, Vec3};
 
 use super::*;
 
