@@ -56,6 +56,8 @@ numbers! {
     NamedSphere {
         /// f = o − center, rounded.
         f: Vec3,
+        /// c = |f|² − r².
+        c: T,
         /// r².
         r2: T,
         /// For [`double`]: the rounding that f lacks, o − center − f.
@@ -211,7 +213,7 @@ impl Test<Spheres> for Slow {
         // What a subtraction rounds off, exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
         let part = seen.f - origin;
         let lost = (origin - (seen.f - part)) - (sphere.center + part);
-        NamedSphere { f: seen.f, r2: seen.r2, lost, radius: sphere.radius }
+        NamedSphere { f: seen.f, c: seen.c, r2: seen.r2, lost, radius: sphere.radius }
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &NamedSphere<f32>) -> NamedSphere<L> {
@@ -219,9 +221,9 @@ impl Test<Spheres> for Slow {
     }
     #[inline(always)]
     fn nearest<L: Lanes>(self, sphere: &NamedSphere<L>, _: Roots, d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-        let NamedSphere { f, r2, lost, radius } = *sphere;
+        let NamedSphere { f, c, r2, lost, radius } = *sphere;
         match self {
-            Self::Geometric => geometric(f, r2, *d, t_min, t_max),
+            Self::Geometric => geometric(&SeenSphere { f, c, r2 }, *d, t_min, t_max),
             // Number by number, so that the other has its own in registers.
             Self::Double => double([f, lost], radius, [d.x, d.y, d.z], t_min, t_max),
         }
@@ -289,15 +291,15 @@ pub fn quadratic<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
 
 /// The lecture's, from outside only; see the module's text.
 #[inline(always)]
-pub fn geometric<L: Lanes>(f: Vec3<L>, r2: L, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-    let along = -f.dot(direction);
-    let q = direction.mul_add(along, f);
+pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let along = -seen.f.dot(direction);
+    let q = direction.mul_add(along, seen.f);
     let p2 = q.dot(q);
-    let possible = p2.le(r2);
+    let possible = p2.le(seen.r2);
     if !possible.any() {
         return None;
     }
-    let t = along - (r2 - p2).sqrt();
+    let t = along - (seen.r2 - p2).sqrt();
     let inside = possible & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
