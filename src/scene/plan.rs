@@ -140,11 +140,11 @@ fn structure(primitives: &[usize; KINDS.len()]) -> Structure {
     if weight < Plan::TREE_FROM { Structure::None } else { Structure::Tree }
 }
 
-/// [`Plan::rare`]. What is tested otherwise than by default is with the rare things.
+/// [`Plan::rare`]. What is tested as no plan chooses is with the rare things.
 fn rare(description: &Description, methods: &Methods) -> bool {
     each_kind!(description, |all| is_rare(all)).contains(&true)
         || methods.triangle != TriangleMethod::default()
-        || methods.sphere != SphereMethod::default()
+        || !matches!(methods.sphere, SphereMethod::Stable | SphereMethod::Quadratic)
 }
 
 /// Whether a kind's elements are more than kernels for plain scenes know.

@@ -6,7 +6,9 @@ use super::packet::{Packet, Within};
 use super::prefetch::Prefetch;
 use super::query::{Found, Query};
 use crate::geometry::face::Aim;
-use crate::geometry::{Bounded, Primitives, Standard, Test};
+use crate::geometry::methods::SphereMethod;
+use crate::geometry::sphere::Roots;
+use crate::geometry::{Bounded, Primitives, Sides, Standard, Test};
 use crate::kinds::for_each_kind;
 use crate::math::{LaneMask, Lanes, RayBatch, Vec3, map2};
 use crate::scene::Scene;
@@ -61,11 +63,15 @@ fn visit<F: Form, L: Lanes, A: Found<L>, C: Contents>(
     batch: (&RayBatch, usize),
     found: &mut A,
 ) {
-    each::<F, _, _, L, A, C>(Standard, planes, packet, found);
+    each::<F, _, _, L, A, C>(Standard, (), planes, packet, found);
     if found.done() {
         return;
     }
-    each::<F, _, _, L, A, C>(Standard, spheres, packet, found);
+    // A loop for each, so that neither pays for the other.
+    match scene.spheres.method {
+        SphereMethod::Quadratic => each::<F, _, _, L, A, C>(Standard, Roots::Quadratic, spheres, packet, found),
+        _ => each::<F, _, _, L, A, C>(Standard, Roots::default(), spheres, packet, found),
+    }
     if C::ALL && !lists.spheres.named.is_empty() {
         each_named::<F, _, L, A>(&scene.spheres, &lists.spheres, batch, found);
     }
@@ -73,7 +79,7 @@ fn visit<F: Form, L: Lanes, A: Found<L>, C: Contents>(
         return;
     }
     if C::TRIANGLES {
-        each::<F, _, _, L, A, C>(Standard, triangles, packet, found);
+        each::<F, _, _, L, A, C>(Standard, Sides::default(), triangles, packet, found);
         if C::ALL && !lists.triangles.named.is_empty() {
             each_named::<F, _, L, A>(&scene.triangles, &lists.triangles, batch, found);
         }
@@ -115,6 +121,7 @@ for_each_kind!(more);
 #[inline(always)]
 fn each<F: Form, K: Primitives, T: Test<K>, L: Lanes, A: Found<L>, C: Contents>(
     test: T,
+    usual: K::Variant,
     candidates: &[Candidate<F, K, T>],
     packet: &Packet<L>,
     found: &mut A,
@@ -124,8 +131,8 @@ fn each<F: Form, K: Primitives, T: Test<K>, L: Lanes, A: Found<L>, C: Contents>(
     }
     let aim = K::aim(packet.direction);
     for (record, variant, id) in candidates {
-        // Where nothing is out of the common, all have the default.
-        let variant = if C::ALL { *variant } else { K::Variant::default() };
+        // Where nothing is rare, all have the same.
+        let variant = if C::ALL { *variant } else { usual };
         let seen = F::seen::<K, T, L>(test, record, variant, packet.origin);
         if let Some((t, inside)) = test.nearest(&seen, variant, &aim, packet.t_min, found.t_max()) {
             found.hit(t, inside, *id);
@@ -145,7 +152,13 @@ fn each_named<F: Form, K: Primitives, L: Lanes, A: Found<L>>(
     found: &mut A,
 ) {
     if let Some(test) = kind.named() {
-        each::<F, K, K::Named, L, A, Everything>(test, &list.named, &Packet::of(rays, at), found);
+        each::<F, K, K::Named, L, A, Everything>(
+            test,
+            K::Variant::default(),
+            &list.named,
+            &Packet::of(rays, at),
+            found,
+        );
     }
 }
 
