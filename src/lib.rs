@@ -51,6 +51,7 @@
 //! [`reference`](mod@reference) alone stands apart: it may import the [`scene::Description`], what that holds and the list
 //! of the kinds, and nothing else.
 //!
+//! - `portable/`, a package of its own: this program for three levels of x86-64 in one, which runs the one for its CPU
 //! - [`viewer`]: the window: 3D view, 2D slice, controls, overlay
 //! - [`measure`]: rays a second, and how right they are; the hard cases, the laboratory and its charts
 //! - [`render`](mod@render): camera, tiles, film, tone mapping, picture files
