@@ -47,7 +47,8 @@ impl Cone {
 
     /// Along T, B and the axis, of a vector.
     fn along(&self, v: DVec3) -> DVec3 {
-        DVec3::from_array(self.frame.map(|a| a.dot(v)))
+        let [x, y, z] = self.frame;
+        DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
     /// Above the description's base.

@@ -40,7 +40,8 @@ impl Cylinder {
 
     /// Along T, B and the axis, of a vector.
     fn along(&self, v: DVec3) -> DVec3 {
-        DVec3::from_array(self.frame.map(|a| a.dot(v)))
+        let [x, y, z] = self.frame;
+        DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
     fn part(&self, point: DVec3) -> Part {

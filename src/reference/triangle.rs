@@ -31,11 +31,19 @@ impl Triangle {
         }
     }
 
+    /// The corners as seen from a point.
+    fn from(&self, point: DVec3) -> [DVec3; 3] {
+        let [a, b, c] = self.corners;
+        [a - point, b - point, c - point]
+    }
+
     /// The weights of the corners at a point of the plane: the areas of the triangles opposite to them.
     fn weights(&self, point: DVec3) -> [f64; 3] {
-        let [a, b, c] = self.corners.map(|corner| corner - point);
-        let areas = [b.cross(c), c.cross(a), a.cross(b)].map(|n| n.dot(self.normal));
-        areas.map(|area| area / areas.iter().sum::<f64>())
+        let [a, b, c] = self.from(point);
+        let area = |a: DVec3, b: DVec3| a.cross(b).dot(self.normal);
+        let [u, v, w] = [area(b, c), area(c, a), area(a, b)];
+        let sum = u + v + w;
+        [u / sum, v / sum, w / sum]
     }
 }
 
@@ -52,8 +60,8 @@ impl Primitive for Triangle {
     /// origin. It is exactly opposite for two triangles that share the edge, so no ray slips between them. An
     /// edge belongs to the triangle; a triangle without area, or seen edge-on, is never hit.
     fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        let [a, b, c] = self.corners.map(|corner| corner - origin);
-        let sides = [a.cross(b), b.cross(c), c.cross(a)].map(|normal| normal.dot(direction));
+        let [a, b, c] = self.from(origin);
+        let sides = [a.cross(b).dot(direction), b.cross(c).dot(direction), c.cross(a).dot(direction)];
         let inside = sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0);
         let slope = self.normal.dot(direction);
         let there = match self.sides {
