@@ -26,6 +26,7 @@ use super::methods::TriangleMethod;
 use super::numbers::numbers;
 use super::{Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
+use wide::f32x8;
 
 /// Triangles, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -445,6 +446,16 @@ impl<L: Lanes> Flat<L> {
         }
         let (nearest, met) = within(low, high, direction, t);
         (nearest.select(beside, t), inside & (in_box | met))
+    }
+}
+
+impl Flat<f32x8> {
+    /// Triangle `lane` in every lane.
+    #[inline(always)]
+    pub fn one<L: Lanes>(&self, lane: usize) -> Flat<L> {
+        let pick = |v: &f32x8| L::splat(v.as_array()[lane & 7]);
+        let all = |v: &Vec3<f32x8>| Vec3::new(pick(&v.x), pick(&v.y), pick(&v.z));
+        Flat { n: all(&self.n), height: pick(&self.height), low: all(&self.low), high: all(&self.high) }
     }
 }
 

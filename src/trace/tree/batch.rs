@@ -2,6 +2,7 @@
 
 use super::beams::{Beams, Ends, RAYS};
 use super::bits::Bits;
+use super::edges::Shears;
 use super::state::State;
 use super::walk::Walk;
 use crate::bvh::{Bvh, Places};
@@ -57,7 +58,13 @@ impl Walk<'_> {
         let ends = Ends::of(self.rays, self.state);
         let [narrow, wide] = ends.narrow(self.bvh, self.rays.common_origin);
         if narrow != 0 {
-            self.beams::<Q, L>(&Beams::new(&ends, narrow, self.bvh, self.rays.common_origin), narrow);
+            let mut beams = Beams::new(&ends, narrow, self.bvh, self.rays.common_origin);
+            if let (true, false, Some(major)) =
+                (self.rays.common_origin, self.scene.triangles.is_empty(), beams.whole.major)
+            {
+                beams.shears = Some(Shears::of(&ends.directions, narrow, major));
+            }
+            self.beams::<Q, L>(&beams, narrow);
         }
         for p in Bits(wide) {
             self.state.lines.prepare(self.rays, self.bvh, RAYS * p..RAYS * (p + 1));

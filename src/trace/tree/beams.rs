@@ -1,6 +1,7 @@
 //! Sixteen groups of sixteen rays: a beam around each, a beam a lane.
 
 use super::beam::{Beam, PAD, TINY};
+use super::edges::Shears;
 use super::state::State;
 use crate::bvh::{Bvh, Node};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, map2, map3};
@@ -21,7 +22,7 @@ const NEAR: f32 = 0.75;
 /// The least and the greatest of what each beam's rays have that are not done, by axis.
 pub struct Ends {
     origins: [[f32x16; 3]; 2],
-    directions: [[f32x16; 3]; 2],
+    pub directions: [[f32x16; 3]; 2],
     /// How far each beam's rays look.
     limits: f32x16,
     /// Beams with a ray that looks.
@@ -32,27 +33,16 @@ impl Ends {
     /// Of a batch, of whose rays the state has how far they look.
     #[inline(never)]
     pub fn of(rays: &RayBatch, state: &State) -> Self {
-        let count = rays.len.div_ceil(RAYS);
-        let none = LaneMask::from_bits(0);
-        let looks: [f32x16; 16] = std::array::from_fn(|p| match p < count {
-            true => Lanes::ge(f32x16::load(&state.t[RAYS * p..]), f32x16::ZERO),
-            false => none,
-        });
-        let full = looks.iter().all(|&looks| LaneMask::all(looks));
-        let load = |column: &[f32; BATCH], p: usize, or: f32| {
-            let value = f32x16::load(&column[RAYS * p..]);
-            if full { value } else { Lanes::select(value, looks[p], f32x16::splat(or)) }
-        };
-        let least = |column: &[f32; BATCH]| fold(|p| load(column, p, f32::INFINITY), Lanes::min);
-        let greatest = |column: &[f32; BATCH]| fold(|p| load(column, p, f32::NEG_INFINITY), Lanes::max);
+        let looks = Looks::of(rays.len, state);
         let both = |columns: &[[f32; BATCH]; 3]| {
-            [map3([0, 1, 2], |axis| least(&columns[axis])), map3([0, 1, 2], |axis| greatest(&columns[axis]))]
+            let [x, y, z] = [looks.ends(&columns[0]), looks.ends(&columns[1]), looks.ends(&columns[2])];
+            [[x[0], y[0], z[0]], [x[1], y[1], z[1]]]
         };
         let origins = match rays.common_origin {
             true => [map3(rays.first_origin().to_array(), f32x16::splat); 2],
             false => both(&rays.origin),
         };
-        let limits = greatest(&state.t);
+        let [_, limits] = looks.ends(&state.t);
         let active = LaneMask::bits(Lanes::ge(limits, f32x16::ZERO));
         Self { origins, directions: both(&rays.direction), limits, active }
     }
@@ -80,19 +70,61 @@ impl Ends {
     }
 }
 
-/// Lane p is what remains of the sixteen numbers of `column(p)`.
+/// Which rays of each beam look.
+struct Looks {
+    rays: [f32x16; 16],
+    /// Whether all do.
+    full: bool,
+}
+
+impl Looks {
+    /// Of a batch of `len` rays.
+    #[inline(always)]
+    fn of(len: usize, state: &State) -> Self {
+        let mut looks = Self { rays: [LaneMask::from_bits(0); 16], full: true };
+        for (p, rays) in looks.rays.iter_mut().enumerate() {
+            if RAYS * p < len {
+                *rays = Lanes::ge(f32x16::load(&state.t[RAYS * p..]), f32x16::ZERO);
+            }
+            looks.full &= LaneMask::all(*rays);
+        }
+        looks
+    }
+
+    /// The least and the greatest number of each beam's rays that look, a beam a lane; ∞ and −∞ where none does.
+    #[inline(never)]
+    fn ends(&self, column: &[f32; BATCH]) -> [f32x16; 2] {
+        let mut rows = [f32x16::ZERO; 16];
+        for (p, row) in rows.iter_mut().enumerate() {
+            *row = f32x16::load(&column[RAYS * p..]);
+        }
+        if self.full {
+            return [fold(&rows, Lanes::min), fold(&rows, Lanes::max)];
+        }
+        let mut others = rows;
+        for p in 0..16 {
+            others[p] = Lanes::select(rows[p], self.rays[p], f32x16::splat(f32::NEG_INFINITY));
+            rows[p] = Lanes::select(rows[p], self.rays[p], f32x16::splat(f32::INFINITY));
+        }
+        [fold(&rows, Lanes::min), fold(&others, Lanes::max)]
+    }
+}
+
+/// Lane p is what remains of the sixteen numbers of row p.
 #[inline(always)]
-fn fold(column: impl Fn(usize) -> f32x16, op: impl Fn(f32x8, f32x8) -> f32x8) -> f32x16 {
-    let half = |first: usize| {
-        let row = |p: usize| {
-            let [a, b]: [f32x8; 2] = cast(column(first + p));
-            op(a, b)
-        };
-        let rows = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
-        let [a, b, c, d, e, f, g, h] = f32x8::transpose(rows);
-        op(op(op(a, b), op(c, d)), op(op(e, f), op(g, h)))
-    };
-    cast([half(0), half(8)])
+fn fold(rows: &[f32x16; 16], op: fn(f32x8, f32x8) -> f32x8) -> f32x16 {
+    cast([fold_half(rows, 0, op), fold_half(rows, 8, op)])
+}
+
+#[inline(always)]
+fn fold_half(rows: &[f32x16; 16], first: usize, op: fn(f32x8, f32x8) -> f32x8) -> f32x8 {
+    let mut halves = [f32x8::ZERO; 8];
+    for (p, half) in halves.iter_mut().enumerate() {
+        let [a, b]: [f32x8; 2] = cast(rows[first + p]);
+        *half = op(a, b);
+    }
+    let [a, b, c, d, e, f, g, h] = f32x8::transpose(halves);
+    op(op(op(a, b), op(c, d)), op(op(e, f), op(g, h)))
 }
 
 /// The beams as boxes are tested with them; the numbers are those of [`Beam`], a beam a lane.
@@ -109,6 +141,8 @@ pub struct Beams {
     pub whole: Beam,
     /// How far each looks, −∞ for beams that are not there.
     pub limits: f32x16,
+    /// Their shears, where all start at one point and have the largest component along one axis.
+    pub shears: Option<Shears>,
 }
 
 impl Beams {
@@ -139,6 +173,7 @@ impl Beams {
             mixed: false,
             whole,
             limits: Lanes::select(ends.limits, there, f32x16::splat(f32::NEG_INFINITY)),
+            shears: None,
         };
         for axis in 0..3 {
             let (least, most) = (d_min[axis], d_max[axis]);

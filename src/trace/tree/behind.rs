@@ -3,24 +3,28 @@
 use super::beam::Beam;
 use super::beams::Beams;
 use super::bits::Bits;
+use super::edges::Shears;
 use crate::bvh::BLOCK;
 use crate::math::Vec3;
 use wide::{f32x8, f32x16};
 
 /// A block's primitives that any group meets.
-pub struct Met {
+pub struct Met<'a> {
     /// The primitives, as bits.
     pub primitives: u32,
     /// Each one's groups, as bits.
     pub groups: [u32; BLOCK],
     /// The axis of the largest component of all directions, where it is known.
     pub major: Option<usize>,
+    /// The groups' shears, where the primitives' edges tell more than their boxes.
+    pub shears: Option<&'a Shears>,
 }
 
 /// Groups of rays behind beams that meet a block.
 pub trait Behind {
-    /// Those of the `used` primitives whose boxes are met, and by which groups.
-    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met;
+    /// Those of the `used` primitives whose boxes are met, and by which groups; by all, where shears are known and wanted,
+    /// to tell by `edges`.
+    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32, edges: bool) -> Met<'_>;
 }
 
 /// One group.
@@ -39,9 +43,9 @@ impl<'a, const MIXED: bool> Group<'a, MIXED> {
 }
 
 impl<const MIXED: bool> Behind for Group<'_, MIXED> {
-    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met {
+    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32, _: bool) -> Met<'_> {
         let primitives = beam_meets::<MIXED>(self.beam, extent, self.limit) & used;
-        Met { primitives, groups: [1 << self.lane; BLOCK], major: self.beam.major }
+        Met { primitives, groups: [1 << self.lane; BLOCK], major: self.beam.major, shears: None }
     }
 }
 
@@ -62,9 +66,13 @@ impl<'a, const MIXED: bool> Groups<'a, MIXED> {
 }
 
 impl<const MIXED: bool> Behind for Groups<'_, MIXED> {
-    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32) -> Met {
+    fn met(&self, extent: &[Vec3<f32x8>; 2], used: u32, edges: bool) -> Met<'_> {
         let beam = &self.beams.whole;
-        let mut met = Met { primitives: 0, groups: [0; BLOCK], major: beam.major };
+        let mut met = Met { primitives: 0, groups: [0; BLOCK], major: beam.major, shears: None };
+        if let (true, Some(shears)) = (edges, &self.beams.shears) {
+            let primitives = beam_meets::<MIXED>(beam, extent, self.limit) & used;
+            return Met { primitives, groups: [self.groups; BLOCK], shears: Some(shears), ..met };
+        }
         let [low, high] = extent;
         for lane in Bits(beam_meets::<MIXED>(beam, extent, self.limit) & used) {
             let pick = |v: &f32x8| v.as_array()[lane & (BLOCK - 1)];

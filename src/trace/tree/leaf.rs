@@ -61,6 +61,9 @@ impl Alone {
 
 /// A kind as the tree tests it.
 pub trait Leaf: Bounded {
+    /// Whether edges tell which groups meet one.
+    const EDGES: bool = false;
+
     /// A block against groups.
     #[inline(always)]
     fn groups<Q: Query, L: Lanes>(walk: &mut Walk, block: &Block<Self>, variant: Self::Variant, met: &Met) -> bool {
@@ -93,7 +96,7 @@ pub trait Leaf: Bounded {
 impl<L: Lanes> Visitor for Together<'_, L> {
     #[inline(always)]
     fn visit<Q: Query, K: Leaf>(&self, walk: &mut Walk, kind: &K, block: &Block<K>, variant: K::Variant) -> bool {
-        let met = self.groups.met(&K::extent(&columns(block)), used(block));
+        let met = self.groups.met(&K::extent(&columns(block)), used(block), K::EDGES && kind.named().is_none());
         met.primitives != 0 && test_groups::<Q, K, L>(walk, kind, block, variant, &met)
     }
 }

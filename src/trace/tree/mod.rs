@@ -19,6 +19,7 @@ mod beams;
 mod behind;
 mod bits;
 mod boxes;
+mod edges;
 mod group;
 mod leaf;
 mod line;

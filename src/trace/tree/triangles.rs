@@ -4,6 +4,7 @@
 use super::beams::RAYS;
 use super::behind::Met;
 use super::bits::Bits;
+use super::edges::{Edges, Shears};
 use super::leaf::{Alone, Leaf, Sixteen, columns, take_eight};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block};
@@ -19,8 +20,13 @@ const FEW: u32 = 5;
 const LINES: usize = 8;
 
 impl Leaf for Triangles {
+    const EDGES: bool = true;
+
     #[inline(always)]
     fn groups<Q: Query, L: Lanes>(walk: &mut Walk, block: &Block<Self>, sides: Sides, met: &Met) -> bool {
+        if let (Some(shears), Some(major)) = (met.shears, met.major) {
+            return from_one_point::<Q, L>(walk, block, sides, met, (shears, major));
+        }
         let mut taken = false;
         let corners = &block.shape.corners;
         for lane in Bits(met.primitives) {
@@ -96,6 +102,52 @@ impl Leaf for Triangles {
         let inside = if sides == Sides::Both { inside } else { inside & shown(sides, n.dot(ray.packet.direction)) };
         take_eight::<Q>(walk, ray.i, t, inside, &block.id)
     }
+}
+
+/// A block against groups whose rays start at one point; most of it once for all its triangles.
+#[inline(always)]
+fn from_one_point<Q: Query, L: Lanes>(
+    walk: &mut Walk,
+    block: &Block<Triangles>,
+    sides: Sides,
+    met: &Met,
+    (shears, major): (&Shears, usize),
+) -> bool {
+    let origin = Vec3::<f32x8>::splat(walk.rays.first_origin());
+    let corners = columns(block).corners();
+    let [a, b, c] = map3(corners, |corner| corner - origin);
+    let seen = [a.ordered(major), b.ordered(major), c.ordered(major)];
+    let (edges, by) = Edges::of(&seen, shears);
+    let primitives = met.primitives & !by;
+    if primitives == 0 {
+        return false;
+    }
+    let n = normal(corners);
+    let flats = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
+    let mut taken = false;
+    for lane in Bits(primitives) {
+        let lane = lane & (BLOCK - 1);
+        walk.prefetch.step(LINES);
+        let [by, through] = edges.beams(lane, shears);
+        let groups = met.groups[lane] & !by;
+        if groups == 0 {
+            continue;
+        }
+        let flat = flats.one::<L>(lane);
+        let pick = |v: &f32x8| L::splat(v.as_array()[lane]);
+        let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| pick(&seen[k][i])));
+        for group in Bits(groups) {
+            for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
+                let inside = match through >> group & 1 {
+                    0 => covers_ordered(&seen, walk.state.shear(at)),
+                    _ => Some(L::zero().le(L::zero())),
+                };
+                let Some(inside) = inside else { continue };
+                taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
+            }
+        }
+    }
+    taken
 }
 
 /// Takes the hits of a triangle that packet `at` passes through where `inside` is true.
