@@ -94,36 +94,29 @@ impl Looks {
     /// The least and the greatest number of each beam's rays that look, a beam a lane; ∞ and −∞ where none does.
     #[inline(never)]
     fn ends(&self, column: &[f32; BATCH]) -> [f32x16; 2] {
-        let mut rows = [f32x16::ZERO; 16];
-        for (p, row) in rows.iter_mut().enumerate() {
-            *row = f32x16::load(&column[RAYS * p..]);
+        let ([a, b], [c, d]) = (self.half(column, 0), self.half(column, 8));
+        [cast([a, c]), cast([b, d])]
+    }
+
+    /// Of eight beams, the first of which is `first`.
+    #[inline(always)]
+    fn half(&self, column: &[f32; BATCH], first: usize) -> [f32x8; 2] {
+        let (mut least, mut greatest) = ([f32x8::ZERO; 8], [f32x8::ZERO; 8]);
+        for p in 0..8 {
+            let row = f32x16::load(&column[RAYS * (first + p)..]);
+            let or = |none: f32| Lanes::select(row, self.rays[first + p], f32x16::splat(none));
+            let (low, high) = if self.full { (row, row) } else { (or(f32::INFINITY), or(f32::NEG_INFINITY)) };
+            let ([a, b], [c, d]): ([f32x8; 2], [f32x8; 2]) = (cast(low), cast(high));
+            (least[p], greatest[p]) = (Lanes::min(a, b), Lanes::max(c, d));
         }
-        if self.full {
-            return [fold(&rows, Lanes::min), fold(&rows, Lanes::max)];
-        }
-        let mut others = rows;
-        for p in 0..16 {
-            others[p] = Lanes::select(rows[p], self.rays[p], f32x16::splat(f32::NEG_INFINITY));
-            rows[p] = Lanes::select(rows[p], self.rays[p], f32x16::splat(f32::INFINITY));
-        }
-        [fold(&rows, Lanes::min), fold(&others, Lanes::max)]
+        [across(least, Lanes::min), across(greatest, Lanes::max)]
     }
 }
 
-/// Lane p is what remains of the sixteen numbers of row p.
+/// Lane p is what remains of the eight numbers of row p.
 #[inline(always)]
-fn fold(rows: &[f32x16; 16], op: fn(f32x8, f32x8) -> f32x8) -> f32x16 {
-    cast([fold_half(rows, 0, op), fold_half(rows, 8, op)])
-}
-
-#[inline(always)]
-fn fold_half(rows: &[f32x16; 16], first: usize, op: fn(f32x8, f32x8) -> f32x8) -> f32x8 {
-    let mut halves = [f32x8::ZERO; 8];
-    for (p, half) in halves.iter_mut().enumerate() {
-        let [a, b]: [f32x8; 2] = cast(rows[first + p]);
-        *half = op(a, b);
-    }
-    let [a, b, c, d, e, f, g, h] = f32x8::transpose(halves);
+fn across(rows: [f32x8; 8], op: fn(f32x8, f32x8) -> f32x8) -> f32x8 {
+    let [a, b, c, d, e, f, g, h] = f32x8::transpose(rows);
     op(op(op(a, b), op(c, d)), op(op(e, f), op(g, h)))
 }
 
