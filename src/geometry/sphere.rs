@@ -306,7 +306,7 @@ pub fn geometric<L: Lanes>(seen: &SeenSphere<L>, direction: Vec3<L>, t_min: L, t
 
 /// [`quadratic`] in `f64`; see the module's text.
 #[inline(never)]
-fn double<L: Lanes>([f, lost]: [Vec3<L>; 2], radius: L, d: [L; 3], t_min: L, t_max: L) -> LaneHits<L> {
+pub fn double<L: Lanes>([f, lost]: [Vec3<L>; 2], radius: L, d: [L; 3], t_min: L, t_max: L) -> LaneHits<L> {
     let [f, lost] = [[f.x, f.y, f.z], [lost.x, lost.y, lost.z]];
     let lanes = |v: L| {
         let mut lanes = [0.0; MAX_LANES];

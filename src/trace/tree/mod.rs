@@ -4,7 +4,8 @@
 //! A batch is sixteen groups of sixteen rays, with a beam around each. The groups descend together: a child is tested
 //! against the beam around all of them first, then against all sixteen at once ([`beams`]), and a group goes on only
 //! where its own beam meets the box. So a box costs two tests for the whole batch, and a primitive only the packets that
-//! come near it. A group whose rays lie too far apart for a beam becomes a packet; single rays are what is left of those.
+//! come near it; of triangles seen from one point, their edges tell which packets pass by or through ([`edges`]). A group
+//! whose rays lie too far apart for a beam becomes a packet; single rays are what is left of those.
 //! (One bound for many rays: Boulos, Wald, Benthin 2006; single rays against eight boxes: Wald, Benthin, Boulos, *Getting
 //! Rid of Packets*, 2008; packets that end as single rays: Benthin, Wald, Woop, Ernst, Mark, *Combining Single and
 //! Packet-Ray Tracing*, 2012.)
