@@ -86,7 +86,7 @@ impl<'a> Images<'a> {
 
     /// An equirectangular panorama: Radiance (`.hdr`), which is linear, or PNG or JPEG as for textures.
     ///
-    /// Not OpenEXR: the decoder that there is (exr 1.74) takes gigabytes for as many chunks as a short file may claim.
+    /// Not OpenEXR: the decoder that there is (`exr`) takes gigabytes for as many chunks as a short file may claim.
     pub fn panorama(&mut self, file: &str) -> Result<Panorama, ReadError> {
         let path = self.assets.path(file);
         let bytes = self.bytes(file)?;
