@@ -4,6 +4,7 @@
 use super::beams::RAYS;
 use super::behind::{Behind, Met};
 use super::bits::Bits;
+use super::triangles::AimAlone;
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
@@ -47,15 +48,15 @@ pub struct Sixteen {
 pub struct Alone {
     /// Which.
     pub i: usize,
-    /// The ray.
-    pub packet: Packet<f32x8>,
+    /// As triangles are tested with it.
+    pub aim: AimAlone,
 }
 
 impl Alone {
     /// Ray `i`.
     #[inline(always)]
     pub fn new(walk: &Walk, i: usize) -> Self {
-        Self { i, packet: Packet::splat(walk.rays, i) }
+        Self { i, aim: AimAlone::new(walk, i) }
     }
 }
 
@@ -233,8 +234,9 @@ fn eight<Q: Query, K: Bounded, T: Test<K>>(
     variant: K::Variant,
     ray: &Alone,
 ) -> bool {
-    let faces = Faces::new(ray.packet.direction);
-    let found = hits::<K, T, f32x8>(test, &columns(block), variant, &ray.packet, &faces);
+    let packet = Packet::splat::<f32x8>(walk.rays, ray.i);
+    let faces = Faces::new(packet.direction);
+    let found = hits::<K, T, f32x8>(test, &columns(block), variant, &packet, &faces);
     found.is_some_and(|(t, inside)| take_eight::<Q>(walk, ray.i, t, inside, &block.id))
 }
 

@@ -65,17 +65,17 @@ pub struct Line {
 impl Line {
     /// Ray `i`, which is prepared.
     #[inline(always)]
-    pub fn new(lines: &Lines, direction: Vec3<f32>, i: usize) -> Self {
+    pub fn new(lines: &Lines, i: usize) -> Self {
         let Lines { inverse, near, far } = lines;
         let splat = |columns: &[[f32; BATCH]; 3]| {
             [f32x8::splat(columns[0][i]), f32x8::splat(columns[1][i]), f32x8::splat(columns[2][i])]
         };
-        let behind = |d: f32| usize::from(d < 0.0);
+        let behind = |axis: usize| usize::from(inverse[axis][i] < 0.0);
         Self {
             inverse: splat(inverse),
             near: splat(near),
             far: splat(far),
-            side: [behind(direction.x), behind(direction.y), behind(direction.z)],
+            side: [behind(0), behind(1), behind(2)],
         }
     }
 

@@ -4,7 +4,6 @@ use super::leaf::{Alone, block};
 use super::line::Line;
 use super::walk::Walk;
 use crate::bvh::{Child, Kind};
-use crate::math::Vec3;
 use crate::trace::query::Query;
 use wide::f32x8;
 
@@ -17,7 +16,7 @@ impl Walk<'_> {
             return;
         }
         let bvh = self.bvh;
-        let line = Line::new(&self.state.lines, Vec3::<f32>::load(&self.rays.direction, i), i);
+        let line = Line::new(&self.state.lines, i);
         let ray = Alone::new(self, i);
         self.state.stack.clear();
         let mut child = from;

@@ -11,6 +11,7 @@ use crate::bvh::{BLOCK, Block};
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
 use crate::geometry::{Sides, Triangles};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
+use crate::trace::packet::Packet;
 use crate::trace::query::Query;
 use wide::{f32x8, f32x16};
 
@@ -18,6 +19,27 @@ use wide::{f32x8, f32x16};
 const FEW: u32 = 5;
 /// Cache lines of the next batch that are fetched for every triangle.
 const LINES: usize = 8;
+
+/// One ray in every lane, its axes in order: the direction's largest comes last.
+pub struct AimAlone {
+    order: [usize; 3],
+    origin: [f32x8; 3],
+    shear: [f32x8; 2],
+}
+
+impl AimAlone {
+    /// Ray `i`.
+    #[inline(always)]
+    pub fn new(walk: &Walk, i: usize) -> Self {
+        let major = Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, i));
+        let order = [(major + 1) % 3, (major + 2) % 3, major];
+        let origin = walk.rays.origins::<f32>(i);
+        let Vec3 { x, y, z } = origin;
+        let all = [x, y, z];
+        let [p, q] = walk.state.shear::<f32>(i);
+        Self { order, origin: map3(order, |axis| f32x8::splat(all[axis])), shear: [f32x8::splat(p), f32x8::splat(q)] }
+    }
+}
 
 impl Leaf for Triangles {
     const EDGES: bool = true;
@@ -86,20 +108,20 @@ impl Leaf for Triangles {
 
     #[inline(always)]
     fn alone<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, ray: &Alone) -> bool {
-        let major = Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, ray.i));
-        let [p, q] = walk.state.shear::<f32>(ray.i);
-        let from = ray.packet.origin.ordered(major);
+        let AimAlone { order, origin, shear } = &ray.aim;
         let TriangleShape { corners } = &block.shape;
-        let axis = |k: usize, i: usize| f32x8::from(corners[k][(major + 1 + i) % 3]) - from[i];
+        // The other way round, which changes the sign of all and so of no product.
+        let axis = |k: usize, i: usize| origin[i] - f32x8::from(corners[k][order[i]]);
         let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)));
-        let Some(inside) = covers_ordered(&seen, [f32x8::splat(p), f32x8::splat(q)]) else { return false };
+        let Some(inside) = covers_ordered(&seen, *shear) else { return false };
+        let packet = Packet::splat::<f32x8>(walk.rays, ray.i);
         let corners = columns(block).corners();
-        let [a, b, c] = map3(corners, |c| c - ray.packet.origin);
+        let [a, b, c] = map3(corners, |c| c - packet.origin);
         let n = normal(corners);
         let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
-        let (t, inside) = flat.distance(ray.packet.direction, inside);
-        let inside = inside & Lanes::gt(t, ray.packet.t_min);
-        let inside = if sides == Sides::Both { inside } else { inside & shown(sides, n.dot(ray.packet.direction)) };
+        let (t, inside) = flat.distance(packet.direction, inside);
+        let inside = inside & Lanes::gt(t, packet.t_min);
+        let inside = if sides == Sides::Both { inside } else { inside & shown(sides, n.dot(packet.direction)) };
         take_eight::<Q>(walk, ray.i, t, inside, &block.id)
     }
 }
