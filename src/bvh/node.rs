@@ -53,6 +53,16 @@ impl Node {
         self.ends[end & 1][axis][lane]
     }
 
+    /// The used children, as bits.
+    #[inline(always)]
+    pub fn used(&self) -> u32 {
+        let mut bits = 0;
+        for (lane, &child) in self.child.iter().enumerate() {
+            bits |= u32::from(child != Child::EMPTY) << lane;
+        }
+        bits
+    }
+
     /// The number of used children.
     pub fn len(&self) -> usize {
         self.child.iter().take_while(|&&child| child != Child::EMPTY).count()

@@ -33,7 +33,7 @@ impl Walk<'_> {
         let mut limits = beams.limits.to_array();
         let mut limit = beams.limits.greatest();
         self.state.parts.clear();
-        let mut part = Part { enter: 0.0, child: bvh.root, lanes };
+        let mut part = Part { near: 0.0, enter: (), child: bvh.root, lanes };
         loop {
             self.prefetch.step(LINES);
             let closer = match part.child.kind() {
@@ -63,8 +63,8 @@ impl Walk<'_> {
                 }
             }
             loop {
-                let Some(next) = self.state.parts.pop() else { return };
-                let looking = LaneMask::bits(Lanes::ge(f32x16::new(limits), f32x16::splat(next.enter)));
+                let Some(&next) = self.state.parts.pop() else { return };
+                let looking = LaneMask::bits(Lanes::ge(f32x16::new(limits), f32x16::splat(next.near)));
                 part = Part { lanes: next.lanes & looking, ..next };
                 if part.lanes != 0 {
                     break;
@@ -75,7 +75,7 @@ impl Walk<'_> {
 
     /// Puts aside the children of a node that any of a part's beams meets.
     #[inline(always)]
-    fn children_of_beams<const MIXED: bool>(&mut self, beams: &Beams, part: &Part, limits: f32x16, limit: f32) {
+    fn children_of_beams<const MIXED: bool>(&mut self, beams: &Beams, part: &Part<()>, limits: f32x16, limit: f32) {
         let node = &self.bvh.nodes[part.child.index()];
         let base = self.state.parts.len();
         let (enter, met) = beams.whole.meets::<MIXED>(|axis, near| node.faces(axis, near), f32x8::splat(limit));
@@ -86,7 +86,7 @@ impl Walk<'_> {
             if lanes != 0 {
                 let child = node.child[lane];
                 self.places.fetch_child(child);
-                self.state.parts.sort_in(base, Part { enter: enter[lane], child, lanes });
+                self.state.parts.sort_in(base, Part { near: enter[lane], enter: (), child, lanes });
             }
         }
     }

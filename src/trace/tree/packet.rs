@@ -18,6 +18,19 @@ const LINES: usize = 2;
 /// As many go on one by one.
 const FEW: u32 = 5;
 
+/// What sixteen rays find at a node: where each enters its children, and which meet each.
+#[derive(Clone, Debug, Default)]
+#[repr(align(64))]
+pub struct Entries {
+    enter: [Enter; 8],
+    met: [u32; 8],
+}
+
+/// Where each of sixteen rays enters a box.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+pub struct Enter([f32; 16]);
+
 /// A ray in every lane: [`super::line::Line`] turned about.
 struct Lines16 {
     inverse: [f32x16; 3],
@@ -72,41 +85,44 @@ impl Walk<'_> {
     /// Traces rays `at` to `at + 16`, whose [`Lines`] are known.
     #[inline(always)]
     pub fn packet<Q: Query>(&mut self, at: usize) {
-        let packet = Lines16::new(&self.state.lines, at, self.looking(at, 0.0));
+        let packet = Lines16::new(&self.state.lines, at, self.looking(at));
         match packet.mixed {
             true => self.descend_packet::<Q, true>(&packet, at),
             false => self.descend_packet::<Q, false>(&packet, at),
         }
     }
 
-    /// The rays that still look as far as that.
+    /// The rays that are not done.
     #[inline(always)]
-    fn looking(&self, at: usize, enter: f32) -> u32 {
-        LaneMask::bits(Lanes::ge(f32x16::load(&self.state.t[at..]), f32x16::splat(enter)))
+    fn looking(&self, at: usize) -> u32 {
+        LaneMask::bits(Lanes::ge(f32x16::load(&self.state.t[at..]), f32x16::ZERO))
     }
 
     #[inline(never)]
     fn descend_packet<Q: Query, const MIXED: bool>(&mut self, packet: &Lines16, at: usize) {
-        self.state.parts.clear();
-        let mut part = Part { enter: 0.0, child: self.bvh.root, lanes: self.looking(at, 0.0) };
+        self.state.apart.clear();
+        let (mut child, mut lanes) = (self.bvh.root, self.looking(at));
         loop {
             self.prefetch.step(LINES);
-            let few = part.lanes.count_ones() <= FEW;
-            match part.child.kind() {
+            let few = lanes.count_ones() <= FEW;
+            match child.kind() {
                 Kind::Node if few => {
-                    for lane in Bits(part.lanes) {
-                        self.single::<Q>(at + lane, part.child);
+                    for lane in Bits(lanes) {
+                        self.single::<Q>(at + lane, child);
                     }
                 }
-                Kind::Node => self.children::<MIXED>(packet, at, &part),
+                Kind::Node => self.children::<MIXED>(packet, at, child, lanes),
                 _ => {
-                    block::<Q, _>(self, part.child, &Sixteen { at, lanes: part.lanes });
+                    block::<Q, _>(self, child, &Sixteen { at, lanes });
                 }
             }
             loop {
-                let Some(next) = self.state.parts.pop() else { return };
-                part = Part { lanes: next.lanes & self.looking(at, next.enter), ..next };
-                if part.lanes != 0 {
+                let t = f32x16::load(&self.state.t[at..]);
+                let Some(next) = self.state.apart.pop() else { return };
+                child = next.child;
+                // Those that still look as far.
+                lanes = next.lanes & LaneMask::bits(Lanes::le(f32x16::load(&next.enter.0), t));
+                if lanes != 0 {
                     break;
                 }
             }
@@ -115,23 +131,25 @@ impl Walk<'_> {
 
     /// Puts aside the children of a node that any of a part's rays meets.
     #[inline(always)]
-    fn children<const MIXED: bool>(&mut self, packet: &Lines16, at: usize, part: &Part) {
-        let node = &self.bvh.nodes[part.child.index()];
-        let base = self.state.parts.len();
+    fn children<const MIXED: bool>(&mut self, packet: &Lines16, at: usize, from: Child, active: u32) {
+        let node = &self.bvh.nodes[from.index()];
+        let base = self.state.apart.len();
         let end = f32x16::load(&self.state.t[at..]);
+        let entries = &mut self.state.entries;
+        // All tests before the first choice: guesses of which child is met next are wrong too often.
+        let mut some = 0;
         for lane in 0..8 {
-            let child = node.child[lane];
-            if child == Child::EMPTY {
-                break;
-            }
             let (enter, met) = packet.meets::<MIXED>(node, lane, end);
-            let lanes = met & part.lanes;
-            if lanes != 0 {
-                self.places.fetch_child(child);
-                let far = f32x16::splat(f32::INFINITY);
-                let enter = Lanes::select(enter, LaneMask::from_bits(lanes), far).least();
-                self.state.parts.sort_in(base, Part { enter, child, lanes });
-            }
+            enter.store(&mut entries.enter[lane].0);
+            entries.met[lane] = met & active;
+            some |= u32::from(met & active != 0) << lane;
+        }
+        for lane in Bits(some & node.used()) {
+            let (child, lanes) = (node.child[lane & 7], self.state.entries.met[lane & 7]);
+            self.places.fetch_child(child);
+            let enter = self.state.entries.enter[lane & 7];
+            let near = enter.0[lanes.trailing_zeros() as usize & 15];
+            self.state.apart.sort_in(base, Part { near, enter, child, lanes });
         }
     }
 }

@@ -130,28 +130,31 @@ impl Stack {
     }
 }
 
-/// A child, the distance from which on some ray may hit it, and those that may.
+/// A child, the distance from which on rays may hit it, and the rays or groups that may.
 #[derive(Clone, Copy, Debug)]
-pub struct Part {
-    pub enter: f32,
+pub struct Part<E> {
+    /// The distance that parts are sorted by.
+    pub near: f32,
+    /// What the one who puts it aside knows of the rays' distances.
+    pub enter: E,
     pub child: Child,
     pub lanes: u32,
 }
 
-/// Parts of a packet's way that are still to be visited, the nearest of every node's on top.
+/// Parts of a way that are still to be visited, the nearest of every node's on top.
 #[derive(Clone, Debug)]
-pub struct Parts {
-    parts: [Part; ROOM],
+pub struct Parts<E> {
+    parts: [Part<E>; ROOM],
     len: usize,
 }
 
-impl Default for Parts {
+impl<E: Copy + Default> Default for Parts<E> {
     fn default() -> Self {
-        Self { parts: [Part { enter: 0.0, child: Child::EMPTY, lanes: 0 }; ROOM], len: 0 }
+        Self { parts: [Part { near: 0.0, enter: E::default(), child: Child::EMPTY, lanes: 0 }; ROOM], len: 0 }
     }
 }
 
-impl Parts {
+impl<E: Copy> Parts<E> {
     /// Forgets all.
     #[inline(always)]
     pub fn clear(&mut self) {
@@ -166,16 +169,16 @@ impl Parts {
 
     /// The next one.
     #[inline(always)]
-    pub fn pop(&mut self) -> Option<Part> {
+    pub fn pop(&mut self) -> Option<&Part<E>> {
         self.len = self.len.checked_sub(1)?;
-        Some(self.parts[self.len])
+        Some(&self.parts[self.len])
     }
 
     /// Adds a part where it belongs above `base`.
     #[inline(always)]
-    pub fn sort_in(&mut self, base: usize, part: Part) {
+    pub fn sort_in(&mut self, base: usize, part: Part<E>) {
         let mut at = self.len;
-        while at > base && self.parts[at - 1].enter < part.enter {
+        while at > base && self.parts[at - 1].near < part.near {
             self.parts[at] = self.parts[at - 1];
             at -= 1;
         }

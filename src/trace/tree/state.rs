@@ -4,6 +4,7 @@ use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, NONE, RayBatch, Vec3};
 
 use super::line::Lines;
+use super::packet::{Enter, Entries};
 use super::stack::{Parts, Stack};
 use crate::trace::query::Query;
 
@@ -23,8 +24,12 @@ pub struct State {
     pub lines: Lines,
     /// Entries that the ray or the group on its way has put aside.
     pub stack: Stack,
+    /// What the packet on its way finds at a node.
+    pub entries: Entries,
     /// Parts that the packet on its way has put aside.
-    pub parts: Parts,
+    pub parts: Parts<()>,
+    /// And what sixteen rays have.
+    pub apart: Parts<Enter>,
 }
 
 impl Default for State {
@@ -35,7 +40,9 @@ impl Default for State {
             shear: [[0.0; BATCH]; 2],
             lines: Lines::default(),
             stack: Stack::default(),
+            entries: Entries::default(),
             parts: Parts::default(),
+            apart: Parts::default(),
         }
     }
 }
