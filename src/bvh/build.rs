@@ -19,7 +19,7 @@ const SMALLEST_OF_MANY: usize = BLOCK;
 /// Primitives that cost more visits of a node than this are split down to single ones: rings gain 4 %.
 const DEAR: f64 = 3.0;
 /// From here on memory and building matter more than the last per cent.
-const MANY: usize = 1 << 16;
+const MANY: usize = 1 << 15;
 /// Ranges of this length and more are worth a task of their own.
 const TASK: usize = 1 << 12;
 
