@@ -46,7 +46,7 @@ pub fn intersect_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], hits: &mut [
     let mut rest = hits;
     for (i, batch) in rays.iter().enumerate() {
         let Some((hits, later)) = rest.split_first_mut() else { return };
-        intersect_before::<L>(scene, batch, Prefetch::of(rays.get(i + 1), later.first()), hits, scratch);
+        intersect_before::<L>(scene, batch, Prefetch::after(batch, rays.get(i + 1), later.first()), hits, scratch);
         rest = later;
     }
 }
@@ -97,7 +97,7 @@ pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked,
 /// [`occluded()`] for many batches, as [`intersect_stream`].
 pub fn occluded_stream<L: Lanes>(scene: &Scene, rays: &[RayBatch], blocked: &mut [Blocked], scratch: &mut Scratch) {
     for (i, (batch, blocked)) in rays.iter().zip(blocked).enumerate() {
-        occluded_before::<L>(scene, batch, Prefetch::of(rays.get(i + 1), None), blocked, scratch);
+        occluded_before::<L>(scene, batch, Prefetch::after(batch, rays.get(i + 1), None), blocked, scratch);
     }
 }
 

@@ -14,9 +14,13 @@ impl<'a> Prefetch<'a> {
     /// Nothing comes next, or it is near already.
     pub const NOTHING: Self = Self { rays: None, hits: None, line: RayBatch::LINES + HitBatch::LINES };
 
-    /// A batch and its hits, where there are any.
-    pub fn of(rays: Option<&'a RayBatch>, hits: Option<&'a HitBatch>) -> Self {
-        Self { rays, hits, line: rays.map_or(Self::NOTHING.line, RayBatch::first_line) }
+    /// The batch after `now` and its hits, where there are any. Whether it has origins to read is taken to be as now: to
+    /// look would be to wait for it.
+    pub fn after(now: &RayBatch, rays: Option<&'a RayBatch>, hits: Option<&'a HitBatch>) -> Self {
+        if let Some(rays) = rays {
+            rays.fetch(RayBatch::LINES);
+        }
+        Self { rays, hits, line: rays.map_or(Self::NOTHING.line, |_| now.first_line()) }
     }
 
     /// Brings a few more lines near. All at once would be as slow as to wait for them: a core waits for only some two
