@@ -3,7 +3,7 @@
 
 use super::beams::RAYS;
 use super::behind::Met;
-use super::bits::Bits;
+use super::bits::{Bits, Bits128};
 use super::edges::{Edges, Shears};
 use super::leaf::{Alone, Leaf, Sixteen, columns, take_eight};
 use super::walk::Walk;
@@ -144,29 +144,37 @@ fn from_one_point<Q: Query, L: Lanes>(
     if primitives == 0 {
         return false;
     }
+    // Which groups each triangle may meet, and which pass through it, as sixteen bits a triangle: one loop over all of them
+    // ends once, where a loop for each triangle would end unexpectedly eight times.
+    let (mut unsure, mut sure) = (0u128, 0u128);
+    for lane in Bits(primitives) {
+        walk.prefetch.step(LINES);
+        let lane = lane & (BLOCK - 1);
+        let [by, through] = edges.beams(lane, shears);
+        let groups = met.groups[lane] & !by;
+        unsure |= u128::from(groups & !through) << (16 * lane);
+        sure |= u128::from(groups & through) << (16 * lane);
+    }
+    if unsure | sure == 0 {
+        return false;
+    }
     let n = normal(corners);
     let flats = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
     let mut taken = false;
-    for lane in Bits(primitives) {
-        let lane = lane & (BLOCK - 1);
-        walk.prefetch.step(LINES);
-        let [by, through] = edges.beams(lane, shears);
-        let groups = met.groups[lane] & !by;
-        if groups == 0 {
-            continue;
-        }
-        let flat = flats.one::<L>(lane);
+    for pair in Bits128(unsure) {
+        let (lane, group) = (pair / 16 & (BLOCK - 1), pair % 16);
         let pick = |v: &f32x8| L::splat(v.as_array()[lane]);
         let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| pick(&seen[k][i])));
-        for group in Bits(groups) {
-            for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
-                let inside = match through >> group & 1 {
-                    0 => covers_ordered(&seen, walk.state.shear(at)),
-                    _ => Some(L::zero().le(L::zero())),
-                };
-                let Some(inside) = inside else { continue };
-                taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
-            }
+        for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
+            let Some(inside) = covers_ordered(&seen, walk.state.shear(at)) else { continue };
+            taken |= take::<Q, L>(walk, at, &flats.one::<L>(lane), sides, inside, block.id[lane]);
+        }
+    }
+    for pair in Bits128(sure) {
+        let (lane, group) = (pair / 16 & (BLOCK - 1), pair % 16);
+        let flat = flats.one::<L>(lane);
+        for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
+            taken |= take::<Q, L>(walk, at, &flat, sides, L::zero().le(L::zero()), block.id[lane]);
         }
     }
     taken
