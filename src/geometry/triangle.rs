@@ -368,7 +368,10 @@ pub fn normal<L: Lanes>([a, b, c]: [Vec3<L>; 3]) -> Vec3<L> {
 /// The default; see the module's text.
 #[inline(always)]
 pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_max: L) -> LaneHits<L> {
-    let inside = covers(&seen.corners, aim)?;
+    let inside = covers(&seen.corners, aim);
+    if !inside.any() {
+        return None;
+    }
     let [a, b, c] = seen.corners;
     let flat = Flat::new(seen.n, seen.height, a.min(b).min(c), a.max(b).max(c));
     let (t, inside) = flat.distance(aim.direction, inside);
@@ -376,9 +379,9 @@ pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_ma
     inside.any().then_some((t, inside))
 }
 
-/// The first half of [`watertight`]: where the rays' lines pass through a triangle; `None` when none does.
+/// The first half of [`watertight`]: where the rays' lines pass through a triangle.
 #[inline(always)]
-pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask> {
+pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> L::Mask {
     let ordered = match aim.major {
         Some(0) => map3(*corners, |c| [c.y, c.z, c.x]),
         Some(1) => map3(*corners, |c| [c.z, c.x, c.y]),
@@ -390,13 +393,12 @@ pub fn covers<L: Lanes>(corners: &[Vec3<L>; 3], aim: &Aim<L>) -> Option<L::Mask>
 
 /// [`covers`] for corners whose components are ordered: the two after the directions' largest, then that one.
 #[inline(always)]
-pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> Option<L::Mask> {
+pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> L::Mask {
     let [[ax, ay], [bx, by], [cx, cy]] = map3(*corners, |[p, q, r]| [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q)]);
     // Not fused: a product that is not rounded would be compared with one that is.
     let (u, v, w) = (cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
-    let inside = least.ge(L::zero()) | most.le(L::zero());
-    inside.any().then_some(inside)
+    least.ge(L::zero()) | most.le(L::zero())
 }
 
 /// A triangle's plane and box as seen from the rays' origin, for the second half of [`watertight`].

@@ -198,7 +198,7 @@ mod tests {
                 let [by, through] = edges.beams(lane, &shears);
                 let one = corners.map(|corner| corner.map(|axis| axis[lane]));
                 for (i, &direction) in directions.iter().enumerate() {
-                    let inside = covers_ordered::<f32>(&one, Aim::new(direction.into()).shear).is_some();
+                    let inside = covers_ordered::<f32>(&one, Aim::new(direction.into()).shear);
                     let beam = i / 16;
                     assert!(!(inside && by >> beam & 1 != 0), "round {round}, triangle {lane}, ray {i} passes through");
                     assert!(!(inside && all_by >> lane & 1 != 0), "round {round}, triangle {lane}, ray {i}, of all");

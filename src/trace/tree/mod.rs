@@ -20,6 +20,7 @@ mod beams;
 mod behind;
 mod bits;
 mod boxes;
+mod covered;
 mod edges;
 mod group;
 mod leaf;

@@ -3,6 +3,7 @@
 use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, NONE, RayBatch, Vec3};
 
+use super::covered::Covered;
 use super::line::Lines;
 use super::packet::{Enter, Entries};
 use super::stack::{Parts, Stack};
@@ -20,6 +21,8 @@ pub struct State {
     pub id: [u32; BATCH],
     /// The directions' [`Aim::shear`], for triangles.
     shear: [[f32; BATCH]; 2],
+    /// Triangles of the block on its turn, and packets that they cover rays of.
+    pub covered: Covered,
     /// Rays of packets, and those traced alone.
     pub lines: Lines,
     /// Entries that the ray or the group on its way has put aside.
@@ -38,6 +41,7 @@ impl Default for State {
             t: [0.0; BATCH],
             id: [NONE; BATCH],
             shear: [[0.0; BATCH]; 2],
+            covered: Covered::default(),
             lines: Lines::default(),
             stack: Stack::default(),
             entries: Entries::default(),

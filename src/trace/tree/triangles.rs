@@ -49,38 +49,26 @@ impl Leaf for Triangles {
         if let (Some(shears), Some(major)) = (met.shears, met.major) {
             return from_one_point::<Q, L>(walk, block, sides, met, (shears, major));
         }
-        let mut taken = false;
-        let corners = &block.shape.corners;
+        let mut pairs = 0u128;
         for lane in Bits(met.primitives) {
-            let lane = lane & (BLOCK - 1);
             walk.prefetch.step(LINES);
-            let primitive = block.primitive(lane).corners();
-            let from = |origin: Vec3<L>, major: usize| {
-                let origin = origin.ordered(major);
-                let axis = |k: usize, i: usize| L::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
-                map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)))
-            };
-            // Once for all where all start at one point.
-            let first = walk.rays.first_origin();
-            let fixed = met.major.filter(|_| walk.rays.common_origin).map(|major| from(Vec3::splat(first), major));
-            for group in Bits(met.groups[lane]) {
-                for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
-                    let origin = walk.rays.origins::<L>(at);
-                    let inside = match (&fixed, met.major) {
-                        (Some(seen), _) => covers_ordered(seen, walk.state.shear(at)),
-                        (None, Some(major)) => covers_ordered(&from(origin, major), walk.state.shear(at)),
-                        (None, None) => {
-                            let aim = Aim::new(Vec3::load(&walk.rays.direction, at));
-                            covers(&map3(primitive, |c| Vec3::splat(c.into()) - origin), &aim)
-                        }
-                    };
-                    let Some(inside) = inside else { continue };
-                    let flat = Flat::of(primitive, origin);
-                    taken |= take::<Q, L>(walk, at, &flat, sides, inside, block.id[lane]);
-                }
-            }
+            let lane = lane & (BLOCK - 1);
+            pairs |= u128::from(met.groups[lane]) << (16 * lane);
         }
-        taken
+        let covers = |walk: &Walk, lane: usize, at: usize| {
+            let origin = walk.rays.origins::<L>(at);
+            let Some(major) = met.major else {
+                let seen = map3(block.primitive(lane).corners(), |corner| Vec3::splat(corner.into()) - origin);
+                return covers(&seen, &Aim::new(Vec3::load(&walk.rays.direction, at)));
+            };
+            let (corners, origin) = (&block.shape.corners, origin.ordered(major));
+            let axis = |k: usize, i: usize| L::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
+            covers_ordered(&map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i))), walk.state.shear(at))
+        };
+        let flat = |walk: &Walk, lane: usize, at: usize| {
+            Flat::of(block.primitive(lane).corners(), walk.rays.origins::<L>(at))
+        };
+        each_pair::<Q, L>(walk, block, sides, [pairs, 0], covers, flat)
     }
 
     #[inline(always)]
@@ -95,15 +83,13 @@ impl Leaf for Triangles {
         }
         let aim = Aim::new(Vec3::<f32x16>::load(&walk.rays.direction, rays.at));
         let origin = walk.rays.origins::<f32x16>(rays.at);
-        let mut taken = false;
-        for (lane, id) in block.id.into_iter().enumerate().take_while(|&(_, id)| id != NONE) {
-            let corners = block.primitive(lane).corners();
-            let seen = map3(corners, |corner| Vec3::splat(corner.into()) - origin);
-            if let Some(inside) = covers(&seen, &aim) {
-                taken |= take::<Q, f32x16>(walk, rays.at, &Flat::of(corners, origin), sides, inside, id);
-            }
+        for lane in (0..BLOCK).take_while(|&lane| block.id[lane] != NONE) {
+            let seen = map3(block.primitive(lane).corners(), |corner| Vec3::splat(corner.into()) - origin);
+            walk.state.covered.note::<f32x16>(rays.at, lane, covers(&seen, &aim));
         }
-        taken
+        take_covered::<Q, f32x16>(walk, block, sides, &|walk: &Walk, lane: usize, at: usize| {
+            Flat::of(block.primitive(lane).corners(), walk.rays.origins(at))
+        })
     }
 
     #[inline(always)]
@@ -113,7 +99,10 @@ impl Leaf for Triangles {
         // The other way round, which changes the sign of all and so of no product.
         let axis = |k: usize, i: usize| origin[i] - f32x8::from(corners[k][order[i]]);
         let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i)));
-        let Some(inside) = covers_ordered(&seen, *shear) else { return false };
+        let inside = covers_ordered(&seen, *shear);
+        if !inside.any() {
+            return false;
+        }
         let packet = Packet::splat::<f32x8>(walk.rays, ray.i);
         let corners = columns(block).corners();
         let [a, b, c] = map3(corners, |c| c - packet.origin);
@@ -144,8 +133,6 @@ fn from_one_point<Q: Query, L: Lanes>(
     if primitives == 0 {
         return false;
     }
-    // Which groups each triangle may meet, and which pass through it, as sixteen bits a triangle: one loop over all of them
-    // ends once, where a loop for each triangle would end unexpectedly eight times.
     let (mut unsure, mut sure) = (0u128, 0u128);
     for lane in Bits(primitives) {
         walk.prefetch.step(LINES);
@@ -160,22 +147,60 @@ fn from_one_point<Q: Query, L: Lanes>(
     }
     let n = normal(corners);
     let flats = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
+    let covers = |walk: &Walk, lane: usize, at: usize| {
+        let pick = |v: &f32x8| L::splat(v.as_array()[lane]);
+        covers_ordered(&map3([0, 1, 2], |k| map3([0, 1, 2], |i| pick(&seen[k][i]))), walk.state.shear(at))
+    };
+    each_pair::<Q, L>(walk, block, sides, [unsure, sure], covers, |_: &Walk, lane, _| flats.one::<L>(lane))
+}
+
+/// Tests pairs of a triangle and a group, sixteen bits a triangle: those of which it is not known whether the triangle covers
+/// any ray, and those of which it covers all. One loop over all pairs ends once, where a loop for each triangle would end
+/// when nobody expects it.
+#[inline(always)]
+fn each_pair<Q: Query, L: Lanes>(
+    walk: &mut Walk,
+    block: &Block<Triangles>,
+    sides: Sides,
+    [unsure, sure]: [u128; 2],
+    covers: impl Fn(&Walk, usize, usize) -> L::Mask,
+    flat: impl Fn(&Walk, usize, usize) -> Flat<L>,
+) -> bool {
     let mut taken = false;
     for pair in Bits128(unsure) {
         let (lane, group) = (pair / 16 & (BLOCK - 1), pair % 16);
-        let pick = |v: &f32x8| L::splat(v.as_array()[lane]);
-        let seen = map3([0, 1, 2], |k| map3([0, 1, 2], |i| pick(&seen[k][i])));
         for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
-            let Some(inside) = covers_ordered(&seen, walk.state.shear(at)) else { continue };
-            taken |= take::<Q, L>(walk, at, &flats.one::<L>(lane), sides, inside, block.id[lane]);
+            let rays = covers(walk, lane, at);
+            walk.state.covered.note::<L>(at, lane, rays);
+        }
+        if walk.state.covered.is_full::<L>() {
+            taken |= take_covered::<Q, L>(walk, block, sides, &flat);
         }
     }
+    taken |= take_covered::<Q, L>(walk, block, sides, &flat);
     for pair in Bits128(sure) {
         let (lane, group) = (pair / 16 & (BLOCK - 1), pair % 16);
-        let flat = flats.one::<L>(lane);
         for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
+            let flat = flat(walk, lane, at);
             taken |= take::<Q, L>(walk, at, &flat, sides, L::zero().le(L::zero()), block.id[lane]);
         }
+    }
+    taken
+}
+
+/// Takes the hits of what is covered.
+#[inline(always)]
+fn take_covered<Q: Query, L: Lanes>(
+    walk: &mut Walk,
+    block: &Block<Triangles>,
+    sides: Sides,
+    flat: &impl Fn(&Walk, usize, usize) -> Flat<L>,
+) -> bool {
+    let mut taken = false;
+    for i in 0..walk.state.covered.take() {
+        let (at, lane, rays) = walk.state.covered.get::<L>(i);
+        let flat = flat(walk, lane, at);
+        taken |= take::<Q, L>(walk, at, &flat, sides, rays, block.id[lane]);
     }
     taken
 }
