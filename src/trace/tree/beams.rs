@@ -15,7 +15,7 @@ pub const RAYS: usize = BATCH / 16;
 const WIDEST: f32 = 0.5;
 /// How far apart they may be at the far side of the scene, in sizes of the tree's blocks; first for a common origin, from
 /// where rays spread before they meet anything.
-const FAR: [f32; 2] = [3.0, 20.0];
+const FAR: [f32; 2] = [6.0, 20.0];
 /// How far apart the origins may be.
 const NEAR: f32 = 0.75;
 

@@ -3,12 +3,12 @@
 //! Whether a triangle covers any ray of a packet is so in about half of the tests: a processor that guesses each answer,
 //! and waits for what follows where it was wrong, loses more time by that than by the tests.
 
-use crate::math::{LaneMask, Lanes, MAX_LANES};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES};
 
-use super::beams::RAYS;
-
+/// The most packets that a group of rays has.
+const PACKETS: usize = BATCH / 16;
 /// As many as a block and all groups can have at the greatest width, and room for one group's at the least.
-const ROOM: usize = 128 + RAYS;
+const ROOM: usize = 128 + PACKETS;
 
 /// What was found and not yet looked at.
 #[derive(Clone, Debug)]
@@ -37,7 +37,7 @@ impl Covered {
     #[inline(always)]
     pub fn is_full<L: Lanes>(&self) -> bool {
         // Of the widest there is always room.
-        L::WIDTH < MAX_LANES && self.len > ROOM - RAYS
+        L::WIDTH < MAX_LANES && self.len > ROOM - PACKETS
     }
 
     /// How many there are; they are forgotten, and stay to be read until the next is noted.

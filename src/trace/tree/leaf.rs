@@ -1,10 +1,10 @@
 //! The primitives of a block against a group, a packet or a ray: one text for all kinds, but for what triangles have of
 //! their own.
 
+use super::alone::Alone;
 use super::beams::RAYS;
 use super::behind::{Behind, Met};
 use super::bits::Bits;
-use super::triangles::AimAlone;
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block, BlockList, Child, Kind};
 use crate::geometry::face::Aim as Faces;
@@ -42,22 +42,6 @@ pub struct Sixteen {
     pub at: usize,
     /// Those that meet the block.
     pub lanes: u32,
-}
-
-/// One ray, in every lane.
-pub struct Alone {
-    /// Which.
-    pub i: usize,
-    /// As triangles are tested with it.
-    pub aim: AimAlone,
-}
-
-impl Alone {
-    /// Ray `i`.
-    #[inline(always)]
-    pub fn new(walk: &Walk, i: usize) -> Self {
-        Self { i, aim: AimAlone::new(walk, i) }
-    }
 }
 
 /// A kind as the tree tests it.

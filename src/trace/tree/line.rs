@@ -71,12 +71,7 @@ impl Line {
             [f32x8::splat(columns[0][i]), f32x8::splat(columns[1][i]), f32x8::splat(columns[2][i])]
         };
         let behind = |axis: usize| usize::from(inverse[axis][i] < 0.0);
-        Self {
-            inverse: splat(inverse),
-            near: splat(near),
-            far: splat(far),
-            side: [behind(0), behind(1), behind(2)],
-        }
+        Self { inverse: splat(inverse), near: splat(near), far: splat(far), side: [behind(0), behind(1), behind(2)] }
     }
 
     /// Eight boxes' entries, not below zero, and which are met no later than at `end`.

@@ -14,6 +14,7 @@
 //! distances the lowest id is kept: so the answers for rays of finite numbers are those of testing everything, to the bit,
 //! whatever the tree, the groups and the order. A ray from beyond 2⁶⁸ hits nothing ([`state`]).
 
+mod alone;
 mod batch;
 mod beam;
 mod beams;
@@ -22,6 +23,7 @@ mod bits;
 mod boxes;
 mod covered;
 mod edges;
+mod entries;
 mod group;
 mod leaf;
 mod line;

@@ -18,19 +18,6 @@ const LINES: usize = 2;
 /// As many go on one by one.
 const FEW: u32 = 5;
 
-/// What sixteen rays find at a node: where each enters its children, and which meet each.
-#[derive(Clone, Debug, Default)]
-#[repr(align(64))]
-pub struct Entries {
-    enter: [Enter; 8],
-    met: [u32; 8],
-}
-
-/// Where each of sixteen rays enters a box.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(align(64))]
-pub struct Enter([f32; 16]);
-
 /// A ray in every lane: [`super::line::Line`] turned about.
 struct Lines16 {
     inverse: [f32x16; 3],

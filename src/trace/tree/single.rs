@@ -1,6 +1,7 @@
 //! One ray against eight boxes, triangles or spheres at a time.
 
-use super::leaf::{Alone, block};
+use super::alone::Alone;
+use super::leaf::block;
 use super::line::Line;
 use super::walk::Walk;
 use crate::bvh::{Child, Kind};

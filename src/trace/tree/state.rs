@@ -4,8 +4,8 @@ use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, NONE, RayBatch, Vec3};
 
 use super::covered::Covered;
+use super::entries::{Enter, Entries};
 use super::line::Lines;
-use super::packet::{Enter, Entries};
 use super::stack::{Parts, Stack};
 use crate::trace::query::Query;
 

@@ -1,11 +1,12 @@
 //! Triangles of a block: what the test needs of the directions is known, and corners come in the order of the axes after
 //! the directions' largest.
 
+use super::alone::Alone;
 use super::beams::RAYS;
 use super::behind::Met;
 use super::bits::{Bits, Bits128};
 use super::edges::{Edges, Shears};
-use super::leaf::{Alone, Leaf, Sixteen, columns, take_eight};
+use super::leaf::{Leaf, Sixteen, columns, take_eight};
 use super::walk::Walk;
 use crate::bvh::{BLOCK, Block};
 use crate::geometry::triangle::{Aim, Flat, TriangleShape, covers, covers_ordered, normal, shown};
@@ -19,27 +20,6 @@ use wide::{f32x8, f32x16};
 const FEW: u32 = 5;
 /// Cache lines of the next batch that are fetched for every triangle.
 const LINES: usize = 8;
-
-/// One ray in every lane, its axes in order: the direction's largest comes last.
-pub struct AimAlone {
-    order: [usize; 3],
-    origin: [f32x8; 3],
-    shear: [f32x8; 2],
-}
-
-impl AimAlone {
-    /// Ray `i`.
-    #[inline(always)]
-    pub fn new(walk: &Walk, i: usize) -> Self {
-        let major = Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, i));
-        let order = [(major + 1) % 3, (major + 2) % 3, major];
-        let origin = walk.rays.origins::<f32>(i);
-        let Vec3 { x, y, z } = origin;
-        let all = [x, y, z];
-        let [p, q] = walk.state.shear::<f32>(i);
-        Self { order, origin: map3(order, |axis| f32x8::splat(all[axis])), shear: [f32x8::splat(p), f32x8::splat(q)] }
-    }
-}
 
 impl Leaf for Triangles {
     const EDGES: bool = true;
@@ -65,9 +45,8 @@ impl Leaf for Triangles {
             let axis = |k: usize, i: usize| L::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
             covers_ordered(&map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i))), walk.state.shear(at))
         };
-        let flat = |walk: &Walk, lane: usize, at: usize| {
-            Flat::of(block.primitive(lane).corners(), walk.rays.origins::<L>(at))
-        };
+        let flat =
+            |walk: &Walk, lane: usize, at: usize| Flat::of(block.primitive(lane).corners(), walk.rays.origins::<L>(at));
         each_pair::<Q, L>(walk, block, sides, [pairs, 0], covers, flat)
     }
 
@@ -94,7 +73,7 @@ impl Leaf for Triangles {
 
     #[inline(always)]
     fn alone<Q: Query>(walk: &mut Walk, block: &Block<Self>, sides: Sides, ray: &Alone) -> bool {
-        let AimAlone { order, origin, shear } = &ray.aim;
+        let Alone { order, origin, shear, .. } = ray;
         let TriangleShape { corners } = &block.shape;
         // The other way round, which changes the sign of all and so of no product.
         let axis = |k: usize, i: usize| origin[i] - f32x8::from(corners[k][order[i]]);
