@@ -49,7 +49,7 @@ impl Default for RayBatch {
 }
 
 impl RayBatch {
-    /// Cache lines that the columns fill; one more holds the rest.
+    /// Cache lines that the columns fill.
     pub(crate) const LINES: usize = 8 * BATCH / 16;
 
     /// The first of them that a query reads.

@@ -17,9 +17,6 @@ impl<'a> Prefetch<'a> {
     /// The batch after `now` and its hits, where there are any. Whether it has origins to read is taken to be as now: to
     /// look would be to wait for it.
     pub fn after(now: &RayBatch, rays: Option<&'a RayBatch>, hits: Option<&'a HitBatch>) -> Self {
-        if let Some(rays) = rays {
-            rays.fetch(RayBatch::LINES);
-        }
         Self { rays, hits, line: rays.map_or(Self::NOTHING.line, |_| now.first_line()) }
     }
 
