@@ -21,7 +21,7 @@ struct Room {
 }
 
 thread_local! {
-    /// Kept by every thread from call to call: some 40 kB. No code of the caller's runs while it is borrowed.
+    /// Kept by every thread from call to call: some 100 kB. No code of the caller's runs while it is borrowed.
     static ROOM: RefCell<Box<Room>> = RefCell::default();
 }
 

@@ -1,6 +1,6 @@
 //! A batch's way through the tree: together, in parts, or one by one.
 
-use super::beams::{Beams, Ends, RAYS};
+use super::beams::{Beams, Ends, RAYS, far_apart};
 use super::bits::Bits;
 use super::edges::Shears;
 use super::state::State;
@@ -56,7 +56,9 @@ impl Walk<'_> {
     /// Traces all rays: the beams that are narrow together, the rays of the others each with its own interval.
     fn rays<Q: Query, L: Lanes>(&mut self) {
         let ends = Ends::of(self.rays, self.state);
-        let [narrow, wide] = ends.narrow(self.bvh, self.rays.common_origin);
+        let scene = self.scene;
+        let triangles = scene.triangles.len() > scene.spheres.len() + scene.boxes.len();
+        let [narrow, wide] = ends.narrow(self.bvh, far_apart(self.rays.common_origin, triangles));
         if narrow != 0 {
             let mut beams = Beams::new(&ends, narrow, self.bvh, self.rays.common_origin);
             if let (true, false, Some(major)) =

@@ -53,3 +53,43 @@ impl Covered {
         (at as usize, lane as usize & 7, L::Mask::from_bits(rays))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wide::{f32x8, f32x16};
+
+    fn rays<L: Lanes>(bits: u32) -> L::Mask {
+        L::Mask::from_bits(bits)
+    }
+
+    #[test]
+    fn what_covers_nothing_is_not_noted_and_the_rest_stays_in_order() {
+        let mut covered = Covered::default();
+        for (i, bits) in [0b100, 0, 0b1010_0001, 0, 0].into_iter().enumerate() {
+            covered.note::<f32x8>(8 * i, i, rays::<f32x8>(bits));
+        }
+        assert_eq!(covered.take(), 2);
+        let found = [0, 1].map(|i| covered.get::<f32x8>(i)).map(|(at, lane, rays)| (at, lane, rays.bits()));
+        assert_eq!(found, [(0, 0, 0b100), (16, 2, 0b1010_0001)]);
+        assert_eq!(covered.take(), 0);
+    }
+
+    /// Every pair of a triangle and a group has room at every width, when what is full is emptied.
+    #[test]
+    fn there_is_room_for_all() {
+        fn fill<L: Lanes>() -> usize {
+            let (mut covered, mut seen) = (Covered::default(), 0);
+            for pair in 0..128 {
+                for at in (0..PACKETS).step_by(L::WIDTH) {
+                    covered.note::<L>(16 * (pair % 16) + at, pair / 16, rays::<L>(1));
+                }
+                if covered.is_full::<L>() {
+                    seen += covered.take();
+                }
+            }
+            seen + covered.take()
+        }
+        assert_eq!([fill::<f32>(), fill::<f32x8>(), fill::<f32x16>()], [128 * 16, 128 * 2, 128]);
+    }
+}
