@@ -147,7 +147,7 @@ fn each_pair<Q: Query, L: Lanes>(
 ) -> bool {
     let mut taken = false;
     for pair in Bits128(unsure) {
-        let (lane, group) = (pair / 16 & (BLOCK - 1), pair % 16);
+        let (lane, group) = ((pair / 16) & (BLOCK - 1), pair % 16);
         for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
             let rays = covers(walk, lane, at);
             walk.state.covered.note::<L>(at, lane, rays);
@@ -158,7 +158,7 @@ fn each_pair<Q: Query, L: Lanes>(
     }
     taken |= take_covered::<Q, L>(walk, block, sides, &flat);
     for pair in Bits128(sure) {
-        let (lane, group) = (pair / 16 & (BLOCK - 1), pair % 16);
+        let (lane, group) = ((pair / 16) & (BLOCK - 1), pair % 16);
         for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
             let flat = flat(walk, lane, at);
             taken |= take::<Q, L>(walk, at, &flat, sides, L::zero().le(L::zero()), block.id[lane]);
