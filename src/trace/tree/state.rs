@@ -29,9 +29,9 @@ pub struct State {
     pub stack: Stack,
     /// What the packet on its way finds at a node.
     pub entries: Entries,
-    /// Parts that the packet on its way has put aside.
+    /// Parts that the groups on their way have put aside.
     pub parts: Parts<()>,
-    /// And what sixteen rays have.
+    /// Parts that the packet on its way has put aside.
     pub apart: Parts<Enter>,
 }
 
