@@ -2,7 +2,7 @@
 
 use super::walk::Walk;
 use crate::geometry::triangle::Aim;
-use crate::math::{Vec3, map3};
+use crate::math::{Vec3, map2, map3};
 use wide::f32x8;
 
 /// One ray; in every lane, and with its axes in order, the direction's largest last, what triangles need of it: more tests
@@ -22,11 +22,13 @@ impl Alone {
     /// Ray `i`.
     #[inline(always)]
     pub fn new(walk: &Walk, i: usize) -> Self {
-        let major = Aim::major_of(Vec3::<f32>::load(&walk.rays.direction, i));
+        let direction = Vec3::<f32>::load(&walk.rays.direction, i);
+        let major = Aim::major_of(direction);
         let order = [(major + 1) % 3, (major + 2) % 3, major];
         let Vec3 { x, y, z } = walk.rays.origins::<f32>(i);
-        let [p, q] = walk.state.shear::<f32>(i);
         let origin = map3(order, |axis| f32x8::splat([x, y, z][axis]));
-        Self { i, order, origin, shear: [f32x8::splat(p), f32x8::splat(q)] }
+        let along = [direction.x, direction.y, direction.z];
+        let shear = map2([order[0], order[1]], |axis| f32x8::splat(along[axis] / along[major]));
+        Self { i, order, origin, shear }
     }
 }

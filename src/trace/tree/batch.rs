@@ -43,7 +43,7 @@ fn answer<Q: Query, L: Lanes>(
     bounds: impl FnOnce() -> Option<Bounds>,
     state: &mut State,
 ) {
-    state.start::<L::Wider>(rays, !scene.triangles.is_empty());
+    state.start::<L::Wider>(rays);
     let mut walk = Walk { scene, bvh, places: Places::of(bvh), rays, prefetch, state };
     if !scene.planes.is_empty() {
         let Some(bounds) = bounds() else { return };

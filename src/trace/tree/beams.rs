@@ -5,7 +5,6 @@ use super::edges::Shears;
 use super::state::State;
 use crate::bvh::{Bvh, Node};
 use crate::math::{BATCH, LaneMask, Lanes, RayBatch, map2, map3};
-use bytemuck::cast;
 use glam::Vec3;
 use wide::{f32x8, f32x16};
 
@@ -50,7 +49,7 @@ impl Ends {
             true => [map3(rays.first_origin().to_array(), f32x16::splat); 2],
             false => both(&rays.origin),
         };
-        let [_, limits] = looks.ends(&state.t);
+        let limits = looks.greatest(&state.t);
         let active = LaneMask::bits(Lanes::ge(limits, f32x16::ZERO));
         Self { origins, directions: both(&rays.direction), limits, active }
     }
@@ -102,30 +101,56 @@ impl Looks {
     /// The least and the greatest number of each beam's rays that look, a beam a lane; ∞ and −∞ where none does.
     #[inline(never)]
     fn ends(&self, column: &[f32; BATCH]) -> [f32x16; 2] {
-        let ([a, b], [c, d]) = (self.half(column, 0), self.half(column, 8));
-        [cast([a, c]), cast([b, d])]
+        [across(self.rows(column, f32::INFINITY), Lanes::min), across(self.rows(column, f32::NEG_INFINITY), Lanes::max)]
     }
 
-    /// Of eight beams, the first of which is `first`.
+    /// The greatest alone.
+    #[inline(never)]
+    fn greatest(&self, column: &[f32; BATCH]) -> f32x16 {
+        across(self.rows(column, f32::NEG_INFINITY), Lanes::max)
+    }
+
+    /// A beam's numbers a row, `none` for rays that do not look.
     #[inline(always)]
-    fn half(&self, column: &[f32; BATCH], first: usize) -> [f32x8; 2] {
-        let (mut least, mut greatest) = ([f32x8::ZERO; 8], [f32x8::ZERO; 8]);
-        for p in 0..8 {
-            let row = f32x16::load(&column[RAYS * (first + p)..]);
-            let or = |none: f32| Lanes::select(row, self.rays[first + p], f32x16::splat(none));
-            let (low, high) = if self.full { (row, row) } else { (or(f32::INFINITY), or(f32::NEG_INFINITY)) };
-            let ([a, b], [c, d]): ([f32x8; 2], [f32x8; 2]) = (cast(low), cast(high));
-            (least[p], greatest[p]) = (Lanes::min(a, b), Lanes::max(c, d));
+    fn rows(&self, column: &[f32; BATCH], none: f32) -> [f32x16; 16] {
+        let mut rows = [f32x16::ZERO; 16];
+        for (p, row) in rows.iter_mut().enumerate() {
+            *row = f32x16::load(&column[RAYS * p..]);
         }
-        [across(least, Lanes::min), across(greatest, Lanes::max)]
+        if !self.full {
+            for (row, looks) in rows.iter_mut().zip(self.rays) {
+                *row = Lanes::select(*row, looks, f32x16::splat(none));
+            }
+        }
+        rows
     }
 }
 
-/// Lane p is what remains of the eight numbers of row p.
+/// Lane p is what `op` leaves of the sixteen numbers of row p. Every step halves the rows; it moves numbers within one row
+/// only, which costs half of a transposition.
 #[inline(always)]
-fn across(rows: [f32x8; 8], op: fn(f32x8, f32x8) -> f32x8) -> f32x8 {
-    let [a, b, c, d, e, f, g, h] = f32x8::transpose(rows);
-    op(op(op(a, b), op(c, d)), op(op(e, f), op(g, h)))
+fn across(rows: [f32x16; 16], op: impl Fn(f32x16, f32x16) -> f32x16 + Copy) -> f32x16 {
+    let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = rows;
+    let two = |a, b| fold::<1>(a, b, op);
+    let four = |a, b, c, d| fold::<2>(two(a, b), two(c, d), op);
+    let eight = |a, b| fold::<4>(a, b, op);
+    fold::<8>(eight(four(a, b, c, d), four(e, f, g, h)), eight(four(i, j, k, l), four(m, n, o, p)), op)
+}
+
+/// Lane i is what `op` leaves of lanes i and i ^ D, of `b` where i has bit D and of `a` elsewhere.
+#[inline(always)]
+fn fold<const D: usize>(a: f32x16, b: f32x16, op: impl Fn(f32x16, f32x16) -> f32x16) -> f32x16 {
+    // Written out, as only so the compiler sees a permutation.
+    #[rustfmt::skip]
+    let (of_b, moved): (u32, fn([f32; 16]) -> [f32; 16]) = match D {
+        1 => (0xaaaa, |v| [v[1], v[0], v[3], v[2], v[5], v[4], v[7], v[6], v[9], v[8], v[11], v[10], v[13], v[12], v[15], v[14]]),
+        2 => (0xcccc, |v| [v[2], v[3], v[0], v[1], v[6], v[7], v[4], v[5], v[10], v[11], v[8], v[9], v[14], v[15], v[12], v[13]]),
+        4 => (0xf0f0, |v| [v[4], v[5], v[6], v[7], v[0], v[1], v[2], v[3], v[12], v[13], v[14], v[15], v[8], v[9], v[10], v[11]]),
+        _ => (0xff00, |v| [v[8], v[9], v[10], v[11], v[12], v[13], v[14], v[15], v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]]),
+    };
+    let of_b: f32x16 = LaneMask::from_bits(of_b);
+    let (stays, moves) = (Lanes::select(b, of_b, a), Lanes::select(a, of_b, b));
+    op(stays, f32x16::new(moved(moves.to_array())))
 }
 
 /// The beams as boxes are tested with them; the numbers are those of [`Beam`], a beam a lane.
@@ -267,7 +292,7 @@ mod tests {
 
     fn state(rays: &RayBatch) -> State {
         let mut state = State::default();
-        state.start::<f32x8>(rays, false);
+        state.start::<f32x8>(rays);
         state
     }
 

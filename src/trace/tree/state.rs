@@ -3,11 +3,13 @@
 use crate::geometry::triangle::Aim;
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, NONE, RayBatch, Vec3};
 
+use super::bits::Bits;
 use super::covered::Covered;
 use super::entries::{Enter, Entries};
 use super::line::Lines;
 use super::stack::{Parts, Stack};
 use crate::trace::query::Query;
+use wide::f32x16;
 
 /// Per ray: the end of its interval, the hit that set it, and what the triangles' test needs of its direction. Kept
 /// from batch to batch.
@@ -21,6 +23,8 @@ pub struct State {
     pub id: [u32; BATCH],
     /// The directions' [`Aim::shear`], for triangles.
     shear: [[f32; BATCH]; 2],
+    /// Groups of rays whose shears are made, as bits.
+    sheared: u32,
     /// Triangles of the block on its turn, and packets that they cover rays of.
     pub covered: Covered,
     /// Rays of packets, and those traced alone.
@@ -41,6 +45,7 @@ impl Default for State {
             t: [0.0; BATCH],
             id: [NONE; BATCH],
             shear: [[0.0; BATCH]; 2],
+            sheared: 0,
             covered: Covered::default(),
             lines: Lines::default(),
             stack: Stack::default(),
@@ -56,42 +61,52 @@ impl Default for State {
 pub const TOO_FAR: f32 = (1u64 << 60) as f32;
 
 impl State {
-    /// For a new batch; `triangles` says whether there are any.
+    /// For a new batch.
     #[inline(always)]
-    pub fn start<L: Lanes>(&mut self, rays: &RayBatch, triangles: bool) {
+    pub fn start<L: Lanes>(&mut self, rays: &RayBatch) {
         // Beams look at eight rays at a time and packets at sixteen, whatever the width.
         self.t[rays.len..rays.len.next_multiple_of(MAX_LANES)].fill(f32::NAN);
         let too_far = L::splat(TOO_FAR);
-        // Column by column, as they lie in memory: what comes from there comes at twice the speed.
-        let origins = rays.origin.iter().filter(|_| !rays.common_origin);
-        for (i, column) in origins.chain(&rays.direction).enumerate() {
-            for at in (0..rays.len).step_by(L::WIDTH) {
-                let others = if i == 0 { L::zero() } else { L::load(&self.t[at..]) };
-                // 0 · ∞ is NaN.
-                (L::load(&column[at..]) * too_far).mul_add(L::zero(), others).store(&mut self.t[at..]);
-            }
-        }
+        // 0 · ∞ is NaN.
+        let strange = |v: Vec3<L>, t: L| {
+            let far = |v: L, t: L| (v * too_far).mul_add(L::zero(), t);
+            far(v.x, far(v.y, far(v.z, t)))
+        };
         for at in (0..rays.len).step_by(L::WIDTH) {
+            let mut t = strange(Vec3::load(&rays.direction, at), L::load(&rays.t_max[at..]));
+            if !rays.common_origin {
+                t = strange(Vec3::load(&rays.origin, at), t);
+            }
             // NaN is not equal to itself.
             let t_min = L::load(&rays.t_min[at..]);
-            L::load(&self.t[at..]).select(t_min.eq(t_min), L::splat(f32::NAN)).store(&mut self.t[at..]);
-        }
-        for at in (0..rays.len).step_by(L::WIDTH) {
-            let t_max = L::load(&rays.t_max[at..]);
-            let t = t_max + L::load(&self.t[at..]);
-            t.select(t_max.ge(L::zero()), L::splat(f32::NAN)).store(&mut self.t[at..]);
+            let looks = t.ge(L::zero()) & t_min.eq(t_min);
+            t.select(looks, L::splat(f32::NAN)).store(&mut self.t[at..]);
             L::splat_id(NONE).store_ids(&mut self.id[at..]);
         }
         if rays.common_origin && !(rays.first_origin() * TOO_FAR).is_finite() {
             self.t[..rays.len].fill(f32::NAN);
         }
-        if triangles {
-            for at in (0..rays.len).step_by(L::WIDTH) {
-                let aim = Aim::new(Vec3::<L>::load(&rays.direction, at));
-                aim.shear[0].store(&mut self.shear[0][at..]);
-                aim.shear[1].store(&mut self.shear[1][at..]);
-            }
+        self.sheared = 0;
+    }
+
+    /// Makes the shears of these groups of rays, a bit each, where they are not made yet.
+    #[inline(always)]
+    pub fn make_shears(&mut self, rays: &RayBatch, groups: u32) {
+        let missing = groups & !self.sheared;
+        if missing != 0 {
+            self.make_more_shears(rays, missing);
         }
+    }
+
+    #[inline(never)]
+    fn make_more_shears(&mut self, rays: &RayBatch, missing: u32) {
+        for group in Bits(missing) {
+            let at = f32x16::WIDTH * group;
+            let aim = Aim::new(Vec3::<f32x16>::load(&rays.direction, at));
+            aim.shear[0].store(&mut self.shear[0][at..]);
+            aim.shear[1].store(&mut self.shear[1][at..]);
+        }
+        self.sheared |= missing;
     }
 
     /// The shear of packet `at` for the triangles' test.

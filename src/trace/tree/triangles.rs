@@ -29,12 +29,14 @@ impl Leaf for Triangles {
         if let (Some(shears), Some(major)) = (met.shears, met.major) {
             return from_one_point::<Q, L>(walk, block, sides, met, (shears, major));
         }
-        let mut pairs = 0u128;
+        let (mut pairs, mut groups) = (0u128, 0);
         for lane in Bits(met.primitives) {
             walk.prefetch.step(LINES);
             let lane = lane & (BLOCK - 1);
             pairs |= u128::from(met.groups[lane]) << (16 * lane);
+            groups |= met.groups[lane];
         }
+        walk.state.make_shears(walk.rays, groups);
         let covers = |walk: &Walk, lane: usize, at: usize| {
             let origin = walk.rays.origins::<L>(at);
             let Some(major) = met.major else {
@@ -112,18 +114,20 @@ fn from_one_point<Q: Query, L: Lanes>(
     if primitives == 0 {
         return false;
     }
-    let (mut unsure, mut sure) = (0u128, 0u128);
+    let (mut unsure, mut sure, mut tested) = (0u128, 0u128, 0);
     for lane in Bits(primitives) {
         walk.prefetch.step(LINES);
         let lane = lane & (BLOCK - 1);
         let [by, through] = edges.beams(lane, shears);
         let groups = met.groups[lane] & !by;
+        tested |= groups & !through;
         unsure |= u128::from(groups & !through) << (16 * lane);
         sure |= u128::from(groups & through) << (16 * lane);
     }
     if unsure | sure == 0 {
         return false;
     }
+    walk.state.make_shears(walk.rays, tested);
     let n = normal(corners);
     let flats = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
     let covers = |walk: &Walk, lane: usize, at: usize| {
