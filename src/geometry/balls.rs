@@ -1,8 +1,8 @@
 //! Balls around primitives, to leave out what no ray of a batch can meet.
 
-use crate::math::KERNEL_LANES;
+use crate::math::MAX_LANES;
 
-/// Balls, column by column, padded with zeros to a multiple of [`KERNEL_LANES`].
+/// Balls, column by column, padded with zeros to a multiple of [`MAX_LANES`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Balls {
     /// Centres.
@@ -29,7 +29,7 @@ impl Balls {
     pub fn push(&mut self, center: glam::Vec3, radius: f32) {
         let i = self.len;
         self.len += 1;
-        let padded = self.len.next_multiple_of(KERNEL_LANES);
+        let padded = self.len.next_multiple_of(MAX_LANES);
         for (column, value) in
             self.center.iter_mut().chain([&mut self.radius]).zip([center.x, center.y, center.z, radius])
         {
@@ -76,6 +76,6 @@ mod tests {
                 assert!(corner.distance(center) <= f64::from(balls.radius[i]), "{i}");
             }
         }
-        assert!(balls.len() == 3 && balls.radius.len() == 8);
+        assert!(balls.len() == 3 && balls.radius.len() == MAX_LANES);
     }
 }

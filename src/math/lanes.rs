@@ -23,8 +23,8 @@ pub trait LaneMask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> 
     fn from_bits(bits: u32) -> Self;
 }
 
-/// `WIDTH` numbers that are worked on at once: `f32` (x1), [`f32x4`] (x4), [`f32x8`] (x8), and [`f32x16`] (x16) in packets of
-/// the tree, which is no kernel of its own.
+/// `WIDTH` numbers that are worked on at once: `f32` (x1), [`f32x4`] (x4), [`f32x8`] (x8), and [`f32x16`] (x16), which is
+/// what x8 works in where there are registers of that width, and no kernel of its own.
 ///
 /// Every operation is one IEEE 754 operation per lane, so that within one build all widths give the same bits.
 /// [`Lanes::mul_add`] is fused in a build with FMA and rounds twice in a build without, on every width.
@@ -138,9 +138,6 @@ fn fused_mul_add(a: f32, b: f32, c: f32) -> f32 {
 fn room<T, const N: usize>(to: &mut [T]) -> &mut [T; N] {
     (&mut to[..N]).try_into().expect("the slice has this length")
 }
-
-/// The widest of the kernels that a scene can be traced by.
-pub const KERNEL_LANES: usize = 8;
 
 /// The widest of the types: columns that are loaded from any place are padded to a multiple of it.
 pub const MAX_LANES: usize = 16;
@@ -316,7 +313,15 @@ macro_rules! wide_lanes {
             }
             #[inline(always)]
             fn estimate_inverse_root(self) -> Self {
-                if cfg!(target_arch = "x86_64") { self.recip_sqrt() } else { Self::ONE / $float::sqrt(self) }
+                if cfg!(not(target_arch = "x86_64")) {
+                    return Self::ONE / $float::sqrt(self);
+                }
+                // Sixteen lanes have an estimate of other bits.
+                let mut quarters: [f32x4; $width / 4] = cast(self);
+                for quarter in &mut quarters {
+                    *quarter = quarter.recip_sqrt();
+                }
+                cast(quarters)
             }
             #[inline(always)]
             fn abs(self) -> Self {

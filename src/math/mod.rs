@@ -12,7 +12,7 @@ mod vec3;
 
 pub use batch::{BATCH, Blocked, HitBatch, NONE, RayBatch};
 pub use isa::{cpu_isa, isa, slower_than_cpu};
-pub use lanes::{KERNEL_LANES, LaneMask, Lanes, MAX_LANES};
+pub use lanes::{LaneMask, Lanes, MAX_LANES};
 pub use power::{exp2, powf};
 pub use srgb::linear_of_bytes;
 pub use vec3::{Vec3, inverse_root};

@@ -7,7 +7,7 @@ pub enum Kernel {
     X1,
     /// Four lanes.
     X4,
-    /// Eight lanes.
+    /// Eight lanes; sixteen in a build for AVX-512.
     #[default]
     X8,
 }
@@ -32,7 +32,7 @@ macro_rules! with_lanes {
         match $kernel {
             $crate::render::Kernel::X1 => $function::<f32>($($argument),*),
             $crate::render::Kernel::X4 => $function::<wide::f32x4>($($argument),*),
-            $crate::render::Kernel::X8 => $function::<wide::f32x8>($($argument),*),
+            $crate::render::Kernel::X8 => $function::<<wide::f32x8 as $crate::math::Lanes>::Wider>($($argument),*),
         }
     };
 }

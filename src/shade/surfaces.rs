@@ -6,7 +6,7 @@ use super::surface::shading_normal;
 use super::texture;
 use super::wave::Wave;
 use crate::geometry::{Primitives, Surface};
-use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, Vec3, exp2};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3, exp2};
 use crate::scene::{Material, Pigment, Scene, with_primitive};
 use crate::trace::{Contents, Nearest};
 
@@ -104,7 +104,7 @@ impl Surfaces {
     pub fn start(&mut self, len: usize) {
         self.glossy = false;
         // Packets without an active ray are passed over later on; the last may be beyond the end.
-        self.lift[..len.next_multiple_of(KERNEL_LANES)].fill(-1.0);
+        self.lift[..len.next_multiple_of(MAX_LANES)].fill(-1.0);
     }
 
     /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`.
@@ -115,7 +115,7 @@ impl Surfaces {
     pub fn find<L: Lanes, C: Contents>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
         let direction = Vec3::<L>::load(&wave.rays.direction, at);
         let p = direction.mul_add(hit.t, wave.rays.origins(at));
-        let mut ids = [0; KERNEL_LANES];
+        let mut ids = [0; MAX_LANES];
         hit.primitive.store_ids(&mut ids);
         let first = ids[hit.found.bits().trailing_zeros() as usize];
         let mut g = gather::<L, C>(scene, first, p);
@@ -164,9 +164,9 @@ impl Transmissions {
     /// there.
     #[inline(never)]
     fn pass<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>, front: L::Mask) {
-        let mut ids = [0; KERNEL_LANES];
+        let mut ids = [0; MAX_LANES];
         hit.primitive.store_ids(&mut ids);
-        let mut depth = [[0.0; KERNEL_LANES]; 3];
+        let mut depth = [[0.0; MAX_LANES]; 3];
         let mut left = hit.found.bits();
         while left != 0 {
             let lane = left.trailing_zeros() as usize;

@@ -1,7 +1,7 @@
 //! A wave: rays of a tile that are equally many reflections and refractions from the eye, packed together.
 
 use super::medium::MediumStack;
-use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, RayBatch, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, RayBatch, Vec3};
 use crate::scene::Plan;
 use crate::trace::Contents;
 
@@ -79,7 +79,7 @@ impl Wave {
             return 0;
         }
         let (mut o, mut d, mut w, mut tint) =
-            ([[0.0; KERNEL_LANES]; 3], [[0.0; KERNEL_LANES]; 3], [0.0; KERNEL_LANES], [[0.0; KERNEL_LANES]; 3]);
+            ([[0.0; MAX_LANES]; 3], [[0.0; MAX_LANES]; 3], [0.0; MAX_LANES], [[0.0; MAX_LANES]; 3]);
         leaving.origin.store(&mut o, 0);
         leaving.direction.store(&mut d, 0);
         leaving.weight.store(&mut w);

@@ -8,7 +8,7 @@ use super::refract::{Split, split};
 use super::surfaces::{Surfaces, absorbed};
 use super::wave::{Leaving, Observer, Wave};
 use super::{sky, spawn};
-use crate::math::{BATCH, KERNEL_LANES, LaneMask, Lanes, Vec3};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3};
 use crate::scene::{MIN_WEIGHT, Scene};
 use crate::trace::{Bounds, Contents, Everything, Intersect, Prefetch, Probe, Scratch, trace, with_contents};
 
@@ -101,7 +101,7 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
 
 /// [`trace_waves`] for a scene of such contents.
 fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut dyn Observer) -> Counts {
-    const { assert!(L::WIDTH <= KERNEL_LANES, "room for a packet's lanes is as wide as the widest kernel") };
+    const { assert!(L::WIDTH <= MAX_LANES, "room for a packet's lanes is as wide as the widest kernel") };
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, queue, surfaces, lighting, scratch, .. } = work;
     for axis in radiance.iter_mut() {
@@ -273,7 +273,7 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
 /// The tints of packet `at` after a way without an end.
 #[inline(never)]
 fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
-    let mut absorption = [[0.0; KERNEL_LANES]; 3];
+    let mut absorption = [[0.0; MAX_LANES]; 3];
     for (lane, inside) in wave.inside[at..at + L::WIDTH].iter().enumerate() {
         let sigma = scene.media[usize::from(inside.medium())].absorption;
         (0..3).for_each(|axis| absorption[axis][lane] = sigma[axis]);
@@ -304,7 +304,7 @@ fn deposit<L: Lanes, C: Contents>(
         (Vec3::load(radiance, first) + rgb).store(radiance, first);
         return;
     }
-    let mut lanes = [[0.0; KERNEL_LANES]; 3];
+    let mut lanes = [[0.0; MAX_LANES]; 3];
     rgb.store(&mut lanes, 0);
     let mut left = mask.bits();
     while left != 0 {

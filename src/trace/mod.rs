@@ -62,7 +62,7 @@ fn intersect_before<L: Lanes>(
         // The answers lie side by side: written at the tree's own width.
         return nearest_of::<L, L::Wider, Everything>(scene, rays, prefetch, hits, scratch);
     }
-    with_contents!(scene, scene.plan.rare, C => nearest_of::<L, L, C>(scene, rays, prefetch, hits, scratch))
+    with_contents!(scene, scene.plan.rare, C => nearest_of::<L::Wider, L::Wider, C>(scene, rays, prefetch, hits, scratch))
 }
 
 fn nearest_of<L: Lanes, W: Lanes, C: Contents>(
@@ -111,7 +111,7 @@ fn occluded_before<L: Lanes>(
     if scene.bvh.is_some() {
         return any_of::<L, Everything>(scene, rays, prefetch, blocked, scratch);
     }
-    with_contents!(scene, scene.plan.rare, C => any_of::<L, C>(scene, rays, prefetch, blocked, scratch))
+    with_contents!(scene, scene.plan.rare, C => any_of::<L::Wider, C>(scene, rays, prefetch, blocked, scratch))
 }
 
 fn any_of<L: Lanes, C: Contents>(
