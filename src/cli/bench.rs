@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::page::Page;
 use super::{input, print};
 use raypacket::geometry::methods::{Choice, SphereMethod};
-use raypacket::measure::bench;
+use raypacket::measure::{bench, stages};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -24,6 +24,9 @@ pub struct Args {
     /// Trace the rays in FILE (eight 32-bit floats a ray) instead; FILE.shadow asks for any hit, others for the nearest
     #[arg(long, value_name = "FILE")]
     rays: Option<PathBuf>,
+    /// Tell where the time of a picture goes instead, stage by stage, on one thread
+    #[arg(long, conflicts_with_all = ["rays", "json", "markdown"])]
+    stages: bool,
     /// Write the results as JSON, with - to standard output
     #[arg(long, value_name = "FILE|-")]
     json: Option<OsString>,
@@ -55,6 +58,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             choices.insert(0, Choice::Sphere(SphereMethod::Stable));
         }
         let scene = input::compile(name, description, &choices)?;
+        if args.stages {
+            print::line(stages::stages(description, &scene, options.size))?;
+            continue;
+        }
         // The message names the ray file.
         let report = bench::run(description, &scene, &options).map_err(Failure::input)?;
         if !quiet {

@@ -106,6 +106,8 @@ pub trait Lanes:
     }
     /// Lanes whose id is `id`; reads the first `WIDTH` ids. Panics when there are fewer.
     fn id_mask(ids: &[u32], id: u32) -> Self::Mask;
+    /// Lanes whose bits are those of `id`.
+    fn is_id(self, id: u32) -> Self::Mask;
     /// The first `WIDTH` ids, as bits. Panics when there are fewer.
     fn load_ids(from: &[u32]) -> Self;
     /// Writes the lanes' bits, as ids, to the start of a slice. Panics when it is shorter.
@@ -226,6 +228,10 @@ impl Lanes for f32 {
     #[inline(always)]
     fn id_mask(ids: &[u32], id: u32) -> bool {
         ids[0] == id
+    }
+    #[inline(always)]
+    fn is_id(self, id: u32) -> bool {
+        self.to_bits() == id
     }
     #[inline(always)]
     fn load_ids(from: &[u32]) -> Self {
@@ -368,6 +374,10 @@ macro_rules! wide_lanes {
             fn id_mask(ids: &[u32], id: u32) -> Self {
                 let ids: [u32; $width] = ids[..$width].try_into().expect("the slice has this length");
                 cast::<$int, $float>($int::new(ids).simd_eq($int::splat(id)))
+            }
+            #[inline(always)]
+            fn is_id(self, id: u32) -> Self {
+                cast::<$int, $float>(cast::<$float, $int>(self).simd_eq($int::splat(id)))
             }
             #[inline(always)]
             fn load_ids(from: &[u32]) -> Self {

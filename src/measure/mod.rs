@@ -8,5 +8,6 @@ pub mod lab;
 pub mod oracle;
 pub mod random;
 pub mod rays;
+pub mod stages;
 mod streams;
 pub mod verify;

@@ -17,4 +17,6 @@ pub use film::{Film, tone_map};
 pub use kernel::Kernel;
 #[cfg(feature = "lab")]
 pub(crate) use kernel::with_lanes;
-pub use tile::{PrimaryHits, TILE, primary_hits, record, render, render_display, render_display_while};
+pub use tile::{
+    PrimaryHits, TILE, primary_hits, record, render, render_display, render_display_while, render_observed,
+};

@@ -11,7 +11,7 @@ use super::kernel::with_lanes;
 use super::{Camera, Film, Kernel, Tone};
 use crate::math::{BATCH, HitBatch, Lanes, NONE, RayBatch, Vec3, map2, map3};
 use crate::scene::Scene;
-use crate::shade::{Counts, Observer, Workspace, facing_normal, trace_waves};
+use crate::shade::{Counts, Observer, Stage, Workspace, facing_normal, trace_waves};
 use crate::trace::{Scratch, intersect};
 
 /// Pixels along a tile's edge.
@@ -137,10 +137,7 @@ pub fn render_display_while(
     let tone = Tone::get();
     over_tiles_while(pixels, width, go_on, |work, first, out| {
         let counts = with_lanes!(kernel, centred(scene, &grid, first, work));
-        let [r, g, b] = &work.shading.radiance;
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = tone.map([r[i], g[i], b[i]]);
-        }
+        tone.map_columns(&work.shading.radiance, out);
         counts
     })
 }
@@ -293,6 +290,43 @@ fn sampled<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], samples: u32
     counts
 }
 
+/// [`render_display`] on this thread, its stages shown to `observer`.
+pub fn render_observed(
+    scene: &Scene,
+    camera: &Camera,
+    kernel: Kernel,
+    [width, height]: [usize; 2],
+    pixels: &mut [u32],
+    observer: &mut impl Observer,
+) -> Counts {
+    let grid = Grid::new(camera, width, height);
+    let mut work = Box::<Workspace>::default();
+    let mut done = [0; BATCH];
+    let mut counts = Counts::default();
+    for (row, strip) in pixels.chunks_mut((width * TILE).max(1)).enumerate() {
+        for x0 in (0..width).step_by(TILE) {
+            counts = counts + with_lanes!(kernel, observed(scene, &grid, [x0, row * TILE], &mut work, observer));
+            Tone::get().map_columns(&work.radiance, &mut done);
+            observer.done(Stage::Curve);
+            put(&done, strip, width, x0);
+            observer.done(Stage::Store);
+        }
+    }
+    counts
+}
+
+fn observed<L: Lanes>(
+    scene: &Scene,
+    grid: &Grid,
+    first: [usize; 2],
+    work: &mut Workspace,
+    observer: &mut impl Observer,
+) -> Counts {
+    grid.fill::<L>(first, [0.5, 0.5], &mut work.primary.rays);
+    observer.done(Stage::Eye);
+    trace_waves::<L>(scene, work, observer)
+}
+
 /// Renders every `stride`-th tile on this thread, in order, and shows its rays to `observer`.
 pub fn record(
     scene: &Scene,
@@ -300,7 +334,7 @@ pub fn record(
     kernel: Kernel,
     [width, height]: [usize; 2],
     stride: usize,
-    observer: &mut dyn Observer,
+    observer: &mut impl Observer,
 ) -> Counts {
     let grid = Grid::new(camera, width, height);
     let mut work = Box::<Workspace>::default();

@@ -2,9 +2,9 @@
 
 use super::spawn::{self, Offsets, ShadowRay};
 use super::surfaces::Surfaces;
-use super::wave::{Observer, Wave};
+use super::wave::{Observer, Stage, Wave};
 use crate::geometry::Primitives;
-use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, powf};
+use crate::math::{BATCH, LaneMask, Lanes, RayBatch, Vec3, map3, powf};
 use crate::scene::{Light, Scene, ShadowStart};
 use crate::trace::{Bounds, Contents, Extent, Occluded, Prefetch, Scratch, Span, trace};
 
@@ -47,13 +47,12 @@ fn bounds_wanted(scene: &Scene) -> bool {
 }
 
 impl Lighting {
-    /// Starts a wave of `len` rays: ambient light only.
-    pub fn start(&mut self, scene: &Scene, len: usize, glossy: bool) {
-        for axis in 0..3 {
-            self.irradiance[axis][..len].fill(scene.settings.ambient[axis]);
-            if glossy {
-                self.highlight[axis][..len].fill(0.0);
-            }
+    /// Starts a wave: ambient light only.
+    pub fn start(&mut self, scene: &Scene, glossy: bool) {
+        // Whole columns, as to fill a part is a call.
+        self.irradiance = map3(scene.settings.ambient.to_array(), |ambient| [ambient; BATCH]);
+        if glossy {
+            self.highlight = [[0.0; BATCH]; 3];
         }
     }
 
@@ -65,15 +64,17 @@ impl Lighting {
         wave: &Wave,
         surfaces: &Surfaces,
         scratch: &mut Scratch,
-        observer: &mut dyn Observer,
+        observer: &mut impl Observer,
     ) -> u64 {
         let (count, bounds) = match scene.plan.shadows[light] {
             ShadowStart::Light => self.fire_from_light::<L, C>(scene, light, wave, surfaces),
             ShadowStart::Point => self.fire_from_points::<L, C>(scene, light, wave, surfaces),
         };
+        observer.done(Stage::Fire);
         if count > 0 {
             observer.shadow(&self.rays);
             self.collect::<L, C>(scene, &scene.lights[light], bounds, wave, surfaces, scratch);
+            observer.done(Stage::Light);
         }
         count
     }

@@ -24,5 +24,5 @@ pub use path::{Segment, SegmentKind, path};
 #[cfg(feature = "lab")]
 pub(crate) use spawn::Offsets;
 pub(crate) use surface::facing_normal;
-pub use wave::Observer;
+pub use wave::{Observer, Stage};
 pub use whitted::{Counts, Workspace, trace_waves};

@@ -130,7 +130,7 @@ impl Tree<'_> {
         let passage = Passage::new(self.scene, ray.inside, self.scene.medium_of[material], front);
         let parts = [m.reflectance, m.transmission].map(|part| part * ray.weight);
         let direction = Lane3::from(ray.direction);
-        let split = split::<f32>(direction, at.normal, at.geometric, passage.eta, parts, m.additive);
+        let split = split::<f32>(direction, at.normal, Some(at.geometric), passage.eta, parts, m.additive);
         let least = if self.scene.plan.refracts { MIN_WEIGHT } else { f32::MIN_POSITIVE };
         let mut add = |kind, lift: f32, direction: Lane3<f32>, inside, weight| {
             if weight >= least {

@@ -55,13 +55,13 @@ pub struct Split<L: Lanes> {
     pub refracted: Vec3<L>,
 }
 
-/// Splits rays. `normal` is that for shading and `geometric` the surface's own, both turned against the ray; `additive`
-/// where the fractions `reflectance` and `transmission` are constant; see [`crate::scene::Material`].
+/// Splits rays. `normal` is that for shading and `geometric` the surface's own where that is another, both turned against
+/// the ray; `additive` where the fractions `reflectance` and `transmission` are constant; see [`crate::scene::Material`].
 #[inline(always)]
 pub fn split<L: Lanes>(
     direction: Vec3<L>,
     normal: Vec3<L>,
-    geometric: Vec3<L>,
+    geometric: Option<Vec3<L>>,
     eta: L,
     [reflectance, transmission]: [L; 2],
     additive: L::Mask,
@@ -69,18 +69,22 @@ pub fn split<L: Lanes>(
     // An interpolated normal that faces away from a ray counts as one across it.
     let facing = |n: Vec3<L>| (-n.dot(direction)).max(L::zero()).min(L::splat(1.0));
     let cosine = facing(normal);
-    let Fresnel { reflectance: f, cosine: through, total } = fresnel(cosine, eta);
-    let refracted = bend(direction, normal, eta, cosine, through);
-    // And one that bends a ray back to where it came from gives way to the surface's own.
-    let below = refracted.dot(geometric).lt(L::zero());
-    let cosine = facing(geometric);
-    let own = fresnel(cosine, eta);
-    let refracted = refracted.select(below, bend(direction, geometric, eta, cosine, own.cosine));
-    let total = total | (own.total & !below);
+    let Fresnel { reflectance: f, cosine: through, mut total } = fresnel(cosine, eta);
+    let mut refracted = bend(direction, normal, eta, cosine, through);
+    let mut reflected = spawn::mirror(direction, normal);
+    if let Some(geometric) = geometric {
+        // And one that bends a ray back to where it came from gives way to the surface's own.
+        let below = refracted.dot(geometric).lt(L::zero());
+        let cosine = facing(geometric);
+        let own = fresnel(cosine, eta);
+        refracted = refracted.select(below, bend(direction, geometric, eta, cosine, own.cosine));
+        reflected = spawn::mirror_above(direction, normal, geometric);
+        total = total | (own.total & !below);
+    }
     let f = L::splat(1.0).select(total, L::zero().select(additive, f));
     Split {
         mirror: transmission.mul_add(f, reflectance),
-        reflected: spawn::mirror_above(direction, normal, geometric),
+        reflected,
         transmitted: transmission * (L::splat(1.0) - f),
         refracted,
     }

@@ -101,10 +101,10 @@ struct Gathered<L> {
 
 impl Surfaces {
     /// Starts a wave: nothing hit yet.
-    pub fn start(&mut self, len: usize) {
+    pub fn start(&mut self) {
         self.glossy = false;
-        // Packets without an active ray are passed over later on; the last may be beyond the end.
-        self.lift[..len.next_multiple_of(MAX_LANES)].fill(-1.0);
+        // Packets without an active ray are passed over later on.
+        self.lift = [-1.0; BATCH];
     }
 
     /// Finds the surfaces of packet `at`, which hit `hit` wherever `hit.found`.
@@ -119,10 +119,10 @@ impl Surfaces {
         hit.primitive.store_ids(&mut ids);
         let first = ids[hit.found.bits().trailing_zeros() as usize];
         let mut g = gather::<L, C>(scene, first, p);
-        let mut left = hit.found.bits() & !L::id_mask(&ids, first).bits();
+        let mut left = hit.found.bits() & !hit.primitive.is_id(first).bits();
         while left != 0 {
             let id = ids[left.trailing_zeros() as usize];
-            let same = L::id_mask(&ids, id);
+            let same = hit.primitive.is_id(id);
             g = gather::<L, C>(scene, id, p).select(same, g);
             left &= !same.bits();
         }
@@ -161,29 +161,43 @@ impl Surfaces {
 
 impl Transmissions {
     /// Finds what lies before and behind the surfaces of packet `at`, and what absorption leaves of the rays up to
-    /// there.
-    #[inline(never)]
+    /// there. Rays that pass through the same side of the same primitive from the same media are looked at once.
+    #[inline(always)]
     fn pass<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>, front: L::Mask) {
         let mut ids = [0; MAX_LANES];
         hit.primitive.store_ids(&mut ids);
-        let mut depth = [[0.0; MAX_LANES]; 3];
+        let before = &wave.inside[at..at + L::WIDTH];
+        let front = front.bits();
+        let (mut eta, mut absorption) = (L::splat(1.0), Vec3::splat(glam::Vec3::ZERO));
         let mut left = hit.found.bits();
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
+            let is_front = front >> lane & 1 == 1;
+            let side = if is_front { front } else { !front };
+            let same = left & side & hit.primitive.is_id(ids[lane]).bits() & alike(before, before[lane]);
             let material = with_primitive!(scene, ids[lane], |kind, i| kind.material(i));
             let medium = scene.medium_of[material as usize];
-            let passage = Passage::new(scene, wave.inside[at + lane], medium, front.bits() >> lane & 1 == 1);
-            self.eta[at + lane] = passage.eta;
-            self.inside[at + lane] = passage.inside;
-            let absorption = scene.media[usize::from(passage.from)].absorption;
-            (0..3).for_each(|axis| depth[axis][lane] = absorption[axis]);
+            let passage = Passage::new(scene, before[lane], medium, is_front);
+            let lanes = L::Mask::from_bits(same);
+            eta = L::splat(passage.eta).select(lanes, eta);
+            absorption = Vec3::splat(scene.media[usize::from(passage.from)].absorption).select(lanes, absorption);
+            for (lane, inside) in self.inside[at..at + L::WIDTH].iter_mut().enumerate() {
+                *inside = if same >> lane & 1 == 1 { passage.inside } else { *inside };
+            }
+            left &= !same;
         }
+        eta.store(&mut self.eta[at..]);
         if scene.plan.absorbs {
             let tint = Vec3::load(&wave.tint, at);
-            absorbed(tint, Vec3::load(&depth, 0), hit.t).store(&mut self.tint, at);
+            absorbed(tint, absorption, hit.t).store(&mut self.tint, at);
         }
     }
+}
+
+/// Which of a packet's rays are in the media `these`, as bits.
+#[inline(always)]
+fn alike(inside: &[MediumStack], these: MediumStack) -> u32 {
+    inside.iter().enumerate().fold(0, |bits, (lane, &inside)| bits | u32::from(inside == these) << lane)
 }
 
 /// A tint after a way `t` through something of the given absorption: e^(−σ t) of it.

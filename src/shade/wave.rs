@@ -110,8 +110,30 @@ impl Wave {
     }
 }
 
-/// Watches the rays of a tile go by, a call for each wave; `()` does not.
+/// A part of the work on a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Making the eye rays.
+    Eye,
+    /// Tracing a wave, finding the surfaces that it hits, and the sky where it hits none.
+    Arrive,
+    /// Making a light's shadow rays.
+    Fire,
+    /// Tracing them, and adding light and highlights where nothing blocks them.
+    Light,
+    /// Giving the light to the pixels; making and queueing the rays that go on.
+    Leave,
+    /// The display's curve.
+    Curve,
+    /// Putting the pixels into the picture.
+    Store,
+}
+
+/// Watches a tile being made: its rays go by, a call for each wave, and its stages; `()` does not.
 pub trait Observer {
+    /// What was done since the last call was this.
+    #[inline(always)]
+    fn done(&mut self, _stage: Stage) {}
     /// The eye rays.
     fn primary(&mut self, _rays: &RayBatch) {}
     /// One light's shadow rays.

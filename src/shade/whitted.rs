@@ -6,7 +6,7 @@ use super::medium::{MediumStack, around};
 use super::queue::{Kind, Queue};
 use super::refract::{Split, split};
 use super::surfaces::{Surfaces, absorbed};
-use super::wave::{Leaving, Observer, Wave};
+use super::wave::{Leaving, Observer, Stage, Wave};
 use super::{sky, spawn};
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3};
 use crate::scene::{MIN_WEIGHT, Scene};
@@ -92,7 +92,7 @@ impl Workspace {
 /// `work.radiance`.
 ///
 /// A workspace goes with one scene.
-pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut dyn Observer) -> Counts {
+pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     if scene.plan.refracts {
         work.start_inside(scene);
     }
@@ -100,22 +100,20 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
 }
 
 /// [`trace_waves`] for a scene of such contents.
-fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut dyn Observer) -> Counts {
+fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     const { assert!(L::WIDTH <= MAX_LANES, "room for a packet's lanes is as wide as the widest kernel") };
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
     let Workspace { primary, radiance, queue, surfaces, lighting, scratch, .. } = work;
-    for axis in radiance.iter_mut() {
-        axis[..primary.rays.len].fill(0.0);
-    }
+    *radiance = [[0.0; BATCH]; 3];
     observer.primary(&primary.rays);
-    let mut stage = Stage { scene, radiance, queue, surfaces, lighting, scratch };
+    let mut workshop = Workshop { scene, radiance, queue, surfaces, lighting, scratch };
     let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
     loop {
-        counts.shadow += stage.shade::<L, C>(queued.as_deref().unwrap_or(primary), depth, observer);
+        counts.shadow += workshop.shade::<L, C>(queued.as_deref().unwrap_or(primary), depth, observer);
         if let Some(wave) = queued.take() {
-            stage.queue.give_back(wave);
+            workshop.queue.give_back(wave);
         }
-        let Some((wave, at, kind)) = stage.queue.take() else { return counts };
+        let Some((wave, at, kind)) = workshop.queue.take() else { return counts };
         match kind {
             Kind::Reflection => {
                 counts.reflection += wave.rays.len as u64;
@@ -131,7 +129,7 @@ fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: 
 }
 
 /// The scene and the memory that a tile's waves are traced and shaded with.
-struct Stage<'a> {
+struct Workshop<'a> {
     scene: &'a Scene,
     radiance: &'a mut [[f32; BATCH]; 3],
     queue: &'a mut Queue,
@@ -140,19 +138,22 @@ struct Stage<'a> {
     scratch: &'a mut Scratch,
 }
 
-impl Stage<'_> {
+impl Workshop<'_> {
     /// Traces and shades a wave, and queues the rays that go on from there; the number of shadow rays.
-    fn shade<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32, observer: &mut dyn Observer) -> u64 {
+    fn shade<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32, observer: &mut impl Observer) -> u64 {
         let scene = self.scene;
-        if !self.arrive::<L, C>(wave, depth) {
+        let any = self.arrive::<L, C>(wave, depth);
+        observer.done(Stage::Arrive);
+        if !any {
             return 0;
         }
-        self.lighting.start(scene, wave.rays.len, self.surfaces.glossy);
+        self.lighting.start(scene, self.surfaces.glossy);
         let mut shadow = 0;
         for light in 0..scene.lights.len() {
             shadow += self.lighting.add::<L, C>(scene, light, wave, self.surfaces, self.scratch, observer);
         }
         self.leave::<L, C>(wave, depth);
+        observer.done(Stage::Leave);
         shadow
     }
 
@@ -161,7 +162,7 @@ impl Stage<'_> {
     fn arrive<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32) -> bool {
         let Self { scene, radiance, surfaces, scratch, .. } = self;
         let mut any = false;
-        surfaces.start(wave.rays.len);
+        surfaces.start();
         trace::<Intersect, L, C>(
             scene,
             &wave.rays,
@@ -181,7 +182,7 @@ impl Stage<'_> {
                     if C::ALL && scene.plan.absorbs {
                         seen = seen.times(endless::<L>(scene, wave, at));
                     }
-                    deposit::<L, C>(wave, at, seen, missed, radiance, depth == 1);
+                    deposit::<L>(wave, at, seen, missed, radiance, depth == 1);
                 }
             },
         );
@@ -209,7 +210,7 @@ impl Stage<'_> {
             if C::ALL && scene.plan.absorbs {
                 sent = sent.times(Vec3::load(&surfaces.media.tint, at));
             }
-            deposit::<L, C>(wave, at, sent, hit, radiance, depth == 1);
+            deposit::<L>(wave, at, sent, hit, radiance, depth == 1);
             if last {
                 continue;
             }
@@ -223,7 +224,7 @@ impl Stage<'_> {
                 let (direction, point) = (Vec3::load(&wave.rays.direction, at), Vec3::load(&surfaces.point, at));
                 let normal = Vec3::load(&surfaces.normal, at);
                 let geometric = surfaces.geometric_normal::<L, C>(scene, at);
-                let direction = match C::ALL {
+                let direction = match C::ALL && scene.plan.smooth {
                     false => spawn::mirror(direction, normal),
                     true => spawn::mirror_above(direction, normal, geometric),
                 };
@@ -247,7 +248,7 @@ fn divide<L: Lanes>(scene: &Scene, wave: &Wave, surfaces: &Surfaces, at: usize, 
     let Split { mirror, reflected, transmitted, refracted } = split(
         Vec3::load(&wave.rays.direction, at),
         Vec3::load(&surfaces.normal, at),
-        geometric,
+        scene.plan.smooth.then_some(geometric),
         L::load(&media.eta[at..]),
         [L::load(&surfaces.mirror[at..]), L::load(&media.transmission[at..])],
         L::load(&media.additive[at..]).gt(L::zero()),
@@ -283,7 +284,7 @@ fn endless<L: Lanes>(scene: &Scene, wave: &Wave, at: usize) -> Vec3<L> {
 
 /// Adds a packet's radiance to its pixels; `in_order` says that ray i belongs to pixel i.
 #[inline(always)]
-fn deposit<L: Lanes, C: Contents>(
+fn deposit<L: Lanes>(
     wave: &Wave,
     at: usize,
     rgb: Vec3<L>,
@@ -296,12 +297,15 @@ fn deposit<L: Lanes, C: Contents>(
         (old + rgb).select(mask, old).store(radiance, at);
         return;
     }
-    // Packing keeps the order, so a packet whose ends are a width apart is a run of pixels; but where two kinds of rays
-    // go on, a wave may hold those of several others, one after another.
+    // Many packets are runs of pixels still.
     let first = usize::from(wave.pixel[at]);
-    let run = !C::ALL && usize::from(wave.pixel[at + L::WIDTH - 1]) == first + L::WIDTH - 1;
-    if mask.all() && run {
-        (Vec3::load(radiance, first) + rgb).store(radiance, first);
+    let strays = wave.pixel[at..at + L::WIDTH]
+        .iter()
+        .enumerate()
+        .fold(0, |strays, (lane, &pixel)| strays | u32::from(usize::from(pixel) != first + lane) << lane);
+    if mask.bits() & strays == 0 && first + L::WIDTH <= BATCH {
+        let old = Vec3::load(radiance, first);
+        (old + rgb).select(mask, old).store(radiance, first);
         return;
     }
     let mut lanes = [[0.0; MAX_LANES]; 3];

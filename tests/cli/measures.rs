@@ -47,6 +47,25 @@ fn bench_as_json() {
 }
 
 #[test]
+fn stages_of_a_picture_add_up() {
+    let folder = folder();
+    let text = raypacket(folder.path(), "bench good.toml --size 32x16 --stages").good().stdout;
+    let mut lines = text.lines();
+    assert!(lines.next().is_some_and(|line| line.starts_with("good  32×16  1 thread  x8")), "{text}");
+    assert!(lines.next().is_some_and(|line| line.starts_with("stage")), "{text}");
+    let rows: Vec<(f64, &str)> = lines
+        .map(|line| {
+            let number = line[18..].split_whitespace().next().expect("a number");
+            (number.parse().expect("ns"), line)
+        })
+        .collect();
+    let (all, stages) = rows.split_last().expect("rows");
+    assert!(all.1.starts_with("all") && stages.len() == 7, "{text}");
+    let sum: f64 = stages.iter().map(|row| row.0).sum();
+    assert!(all.0 > 0.0 && (sum - all.0).abs() < 0.05, "{text}");
+}
+
+#[test]
 fn methods_are_chosen_by_name_and_judged_like_all_others() {
     let folder = folder();
     let run = |line: &str| raypacket(folder.path(), line);

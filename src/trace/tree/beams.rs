@@ -140,17 +140,22 @@ fn across(rows: [f32x16; 16], op: impl Fn(f32x16, f32x16) -> f32x16 + Copy) -> f
 /// Lane i is what `op` leaves of lanes i and i ^ D, of `b` where i has bit D and of `a` elsewhere.
 #[inline(always)]
 fn fold<const D: usize>(a: f32x16, b: f32x16, op: impl Fn(f32x16, f32x16) -> f32x16) -> f32x16 {
+    let of_b: f32x16 = LaneMask::from_bits(match D {
+        1 => 0xaaaa,
+        2 => 0xcccc,
+        4 => 0xf0f0,
+        _ => 0xff00,
+    });
+    let (stays, v) = (Lanes::select(b, of_b, a), Lanes::select(a, of_b, b).to_array());
     // Written out, as only so the compiler sees a permutation.
     #[rustfmt::skip]
-    let (of_b, moved): (u32, fn([f32; 16]) -> [f32; 16]) = match D {
-        1 => (0xaaaa, |v| [v[1], v[0], v[3], v[2], v[5], v[4], v[7], v[6], v[9], v[8], v[11], v[10], v[13], v[12], v[15], v[14]]),
-        2 => (0xcccc, |v| [v[2], v[3], v[0], v[1], v[6], v[7], v[4], v[5], v[10], v[11], v[8], v[9], v[14], v[15], v[12], v[13]]),
-        4 => (0xf0f0, |v| [v[4], v[5], v[6], v[7], v[0], v[1], v[2], v[3], v[12], v[13], v[14], v[15], v[8], v[9], v[10], v[11]]),
-        _ => (0xff00, |v| [v[8], v[9], v[10], v[11], v[12], v[13], v[14], v[15], v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]]),
+    let moved = match D {
+        1 => [v[1], v[0], v[3], v[2], v[5], v[4], v[7], v[6], v[9], v[8], v[11], v[10], v[13], v[12], v[15], v[14]],
+        2 => [v[2], v[3], v[0], v[1], v[6], v[7], v[4], v[5], v[10], v[11], v[8], v[9], v[14], v[15], v[12], v[13]],
+        4 => [v[4], v[5], v[6], v[7], v[0], v[1], v[2], v[3], v[12], v[13], v[14], v[15], v[8], v[9], v[10], v[11]],
+        _ => [v[8], v[9], v[10], v[11], v[12], v[13], v[14], v[15], v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]],
     };
-    let of_b: f32x16 = LaneMask::from_bits(of_b);
-    let (stays, moves) = (Lanes::select(b, of_b, a), Lanes::select(a, of_b, b));
-    op(stays, f32x16::new(moved(moves.to_array())))
+    op(stays, f32x16::new(moved))
 }
 
 /// The beams as boxes are tested with them; the numbers are those of [`Beam`], a beam a lane.

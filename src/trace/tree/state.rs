@@ -65,7 +65,9 @@ impl State {
     #[inline(always)]
     pub fn start<L: Lanes>(&mut self, rays: &RayBatch) {
         // Beams look at eight rays at a time and packets at sixteen, whatever the width.
-        self.t[rays.len..rays.len.next_multiple_of(MAX_LANES)].fill(f32::NAN);
+        if !rays.len.is_multiple_of(MAX_LANES) {
+            self.t[rays.len..rays.len.next_multiple_of(MAX_LANES)].fill(f32::NAN);
+        }
         let too_far = L::splat(TOO_FAR);
         // 0 · ∞ is NaN.
         let strange = |v: Vec3<L>, t: L| {
