@@ -7,13 +7,16 @@
 mod args;
 mod bench;
 mod chart;
+mod earlier;
 mod failure;
+mod folder;
 mod info;
 mod input;
 mod page;
 mod plan;
 mod print;
 mod progress;
+mod ray_files;
 mod render;
 mod scenes;
 mod verify;

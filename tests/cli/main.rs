@@ -3,6 +3,7 @@
 mod errors;
 mod measures;
 mod pictures;
+mod runs;
 
 use assert_cmd::cargo::cargo_bin_cmd;
 use std::fs;
