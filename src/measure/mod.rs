@@ -5,6 +5,7 @@ pub mod against;
 pub mod bench;
 pub mod cases;
 pub mod chart;
+pub mod contest;
 pub mod lab;
 pub mod oracle;
 mod plain;
