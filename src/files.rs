@@ -2,13 +2,17 @@
 //!
 //! A [`Target`] is checked before the work starts and written when it is done: into a temporary file beside
 //! it, which then takes its name. So a bad path costs no rendering time, and a failure or an interruption leaves the
-//! old file, or none, but never a torn one.
+//! old file, or none, but never a torn one. An [`Appender`] adds lines to a file that keeps what it has.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
+
+mod append;
+
+pub use append::Appender;
 
 /// Why a file cannot be written: its path and the reason, in one line.
 #[derive(Debug, thiserror::Error)]

@@ -2,12 +2,11 @@
 
 use super::args::Threads;
 use super::failure::Failure;
-use super::print;
 use super::progress::Progress;
+use super::{folder, print};
 use raypacket::files::Target;
 use raypacket::measure::chart;
 use raypacket::measure::lab::{Budget, Machine};
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -49,11 +48,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 /// Every chart's name and its two files, all of which can be written.
 fn targets(folder: &Path) -> Result<Vec<(String, [Target; 2])>, Failure> {
-    if !folder.exists() {
-        fs::create_dir(folder).map_err(|e| Failure::input(format!("{}: cannot be made: {e}", folder.display())))?;
-    } else if !folder.is_dir() {
-        return Err(Failure::input(format!("{}: is a file, not a folder", folder.display())));
-    }
+    folder::make(folder)?;
     let files = |name: String| {
         let [svg, csv] = ["svg", "csv"].map(|extension| Target::new(&folder.join(format!("{name}.{extension}"))));
         Ok((name, [svg.map_err(Failure::input)?, csv.map_err(Failure::input)?]))

@@ -1,19 +1,24 @@
 //! The command line: parse, call, print; one file for each command.
 //!
 //! Exit status: 0 when all is well; 1 when it could not be done, such as without a display, on a CPU that
-//! lacks what the program was compiled for, or when `verify` or `bench` find a wrong answer; 2 for bad input,
+//! lacks what the program was compiled for, or when `verify`, `bench` or `contest` find a wrong answer; 2 for bad input,
 //! which is found before any work starts and leaves no file behind. Errors are one line on standard error.
 
 mod args;
 mod bench;
+mod block;
 mod chart;
+mod contest;
+mod earlier;
 mod failure;
+mod folder;
 mod info;
 mod input;
 mod page;
 mod plan;
 mod print;
 mod progress;
+mod ray_files;
 mod render;
 mod scenes;
 mod verify;
@@ -43,6 +48,8 @@ enum Command {
     Render(render::Args),
     /// Measure how many rays a second are traced
     Bench(bench::Args),
+    /// Measure frames a second along a fixed path, as a result to paste
+    Contest(contest::Args),
     /// Check every kernel against the scalar reference
     Verify(verify::Args),
     /// Measure how fast and how right every method is, as SVG charts with their data
@@ -70,6 +77,7 @@ pub fn run() -> ExitCode {
         Command::View(args) => view::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Contest(args) => contest::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Chart(args) => chart::run(&args),
         Command::Info(args) => info::run(&args),

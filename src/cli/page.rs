@@ -2,36 +2,29 @@
 
 use raypacket::math::isa;
 use raypacket::measure::bench::{Measured, Report};
+use raypacket::measure::turns::NOISY;
 use std::fmt::{self, Display};
-use std::fs;
 
 /// What `bench` found, on this machine.
 pub struct Page<'a> {
     reports: &'a [Report],
-    cpu: String,
 }
 
 impl<'a> Page<'a> {
     pub fn new(reports: &'a [Report]) -> Self {
-        Self { reports, cpu: cpu() }
+        Self { reports }
     }
-}
-
-/// The CPU's name where the system tells it, or else its architecture.
-fn cpu() -> String {
-    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    name.map_or(std::env::consts::ARCH, |(_, name)| name.trim()).to_owned()
 }
 
 impl Display for Page<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let threads = self.reports.first().map_or(0, |report| report.threads);
-        writeln!(f, "# Rates on {}\n", self.cpu)?;
+        let cpu = self.reports.first().map_or("", |report| &report.stamp.cpu);
+        writeln!(f, "# Rates on {cpu}\n")?;
         writeln!(
             f,
             "`raypacket bench` wrote this page: version {}, compiled for `{}`, {threads} thread{}. A cell is the median in \
-             10⁶ rays a second, and in brackets by how many percent the best run was better.",
+             10⁶ rays a second, and in brackets the spread of the runs in percent.",
             env!("CARGO_PKG_VERSION"),
             isa(),
             if threads == 1 { "" } else { "s" },
@@ -72,8 +65,9 @@ impl Display for Table<'_> {
 
 /// The rate of one kernel.
 fn cell(row: &[Measured], kernel: &str) -> String {
-    let Some(Measured { mrays_median, mrays_best, .. }) = row.iter().find(|measured| measured.kernel == kernel) else {
+    let Some(Measured { mrays_median, spread, .. }) = row.iter().find(|measured| measured.kernel == kernel) else {
         return "–".to_owned();
     };
-    format!("{mrays_median:.1} (+{:.0})", 100.0 * (mrays_best / mrays_median - 1.0))
+    let noisy = if *spread > NOISY { ", noisy" } else { "" };
+    format!("{mrays_median:.1} ({:.0}{noisy})", 100.0 * spread)
 }

@@ -2,22 +2,19 @@
 
 use std::fmt;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::rays::{self, RayFileError};
+use super::stamp::Stamp;
 use super::streams::Streams;
+use super::turns::{Times, noise, take_turns};
 use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa, slower_than_cpu};
 use crate::render::{Camera, Kernel, render_display, with_lanes};
 use crate::scene::{Description, Scene};
 use crate::trace::{Scratch, intersect_stream, occluded_stream};
-
-/// Timed runs of each kernel: as many as fit the budget, within these bounds.
-const RUNS: std::ops::RangeInclusive<usize> = 3..=31;
-/// Time for the runs of one query, all kernels together.
-const BUDGET: Duration = Duration::from_secs(4);
 
 /// Rays traced between two looks at the clock, at the least.
 const MIN_RAYS: u64 = 500_000;
@@ -29,11 +26,13 @@ pub struct Options {
     pub size: [usize; 2],
     /// A file of rays to trace instead; see [`super::rays`].
     pub rays: Option<PathBuf>,
+    /// Time for the runs of one query, all kernels together; there are 3 at the least.
+    pub budget: Duration,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { size: [1024, 512], rays: None }
+        Self { size: [1024, 512], rays: None, budget: Duration::from_secs(4) }
     }
 }
 
@@ -54,6 +53,10 @@ pub struct Measured {
     pub mrays_median: f64,
     /// The best run.
     pub mrays_best: f64,
+    /// How many runs were timed.
+    pub runs: usize,
+    /// How far the runs lie apart, as a share of the median: see [`Times::spread`].
+    pub spread: f64,
 }
 
 /// The tree of a scene.
@@ -83,6 +86,9 @@ pub struct Report {
     pub threads: usize,
     /// The instruction set this build uses.
     pub isa: &'static str,
+    /// On what, from what and when.
+    #[serde(flatten)]
+    pub stamp: Stamp,
     /// The methods by which primitives are tested and rays moved off surfaces ([`crate::geometry::methods`]).
     pub methods: String,
     /// Whether the answers agreed: all kernels with each other to the bit, and a smaller picture with the reference.
@@ -107,7 +113,7 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
     let mut results = Vec::new();
     let mut same = true;
     let mut measure = |query: String, shadow: bool, batches: &[RayBatch]| {
-        let (measured, agree) = time_query(scene, &query, shadow, batches);
+        let (measured, agree) = time_query(scene, &query, shadow, batches, options.budget);
         results.extend(measured);
         same &= agree;
     };
@@ -123,13 +129,14 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
         measure("shadow".into(), true, &streams.shadow);
         measure("reflection".into(), false, &streams.reflection);
         measure("refraction".into(), false, &streams.refraction);
-        results.extend(time_frames(scene, &camera, options.size));
+        results.extend(time_frames(scene, &camera, options));
     }
     Ok(Report {
         scene: description.name.clone(),
         size: options.size,
         threads: rayon::current_num_threads(),
         isa: isa(),
+        stamp: Stamp::now(),
         methods: scene.plan.methods.to_string(),
         valid: same && agrees_with_reference(description, scene),
         build: Build::of(scene),
@@ -138,7 +145,7 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
 }
 
 /// Whether a picture small enough for brute force agrees with the reference.
-fn agrees_with_reference(description: &Description, scene: &Scene) -> bool {
+pub(super) fn agrees_with_reference(description: &Description, scene: &Scene) -> bool {
     let affordable = 200_000_000 / (description.primitives() + 20);
     let height = ((affordable / 2) as f64).sqrt().clamp(8.0, 128.0) as usize;
     let options = scene.plan.methods.choices().as_slice().into();
@@ -146,7 +153,13 @@ fn agrees_with_reference(description: &Description, scene: &Scene) -> bool {
 }
 
 /// Times one query at every kernel; also whether all kernels gave the same bits.
-fn time_query(scene: &Scene, query: &str, shadow: bool, batches: &[RayBatch]) -> (Vec<Measured>, bool) {
+fn time_query(
+    scene: &Scene,
+    query: &str,
+    shadow: bool,
+    batches: &[RayBatch],
+    budget: Duration,
+) -> (Vec<Measured>, bool) {
     let active: u64 = batches.iter().map(|b| b.active() as u64).sum();
     if active == 0 && query != "primary" && !query.starts_with("rays:") {
         return (Vec::new(), true);
@@ -155,7 +168,7 @@ fn time_query(scene: &Scene, query: &str, shadow: bool, batches: &[RayBatch]) ->
     // A short set is traced over and over, so that the clock is not what is measured.
     let all: u64 = batches.iter().map(|b| b.len as u64).sum();
     let passes = (MIN_RAYS / all.max(1)).max(1);
-    let times = take_turns(|kernel| answers[kernel as usize].fill(scene, kernel, batches, passes));
+    let times = by_kernel(budget, |kernel| answers[kernel as usize].fill(scene, kernel, batches, passes));
     let same = answers.windows(2).all(|pair| pair[0] == pair[1]);
     let measured = Kernel::ALL.iter().zip(times).zip(&answers).map(|((kernel, times), answers)| {
         let (hits, sum_t) = answers.sum(batches);
@@ -165,41 +178,26 @@ fn time_query(scene: &Scene, query: &str, shadow: bool, batches: &[RayBatch]) ->
 }
 
 /// Times whole frames at every kernel.
-fn time_frames(scene: &Scene, camera: &Camera, [width, height]: [usize; 2]) -> Vec<Measured> {
+fn time_frames(scene: &Scene, camera: &Camera, options: &Options) -> Vec<Measured> {
+    let [width, height] = options.size;
     let mut pixels = vec![0; width * height];
     let mut rays = 0;
-    let times = take_turns(|kernel| rays = render_display(scene, camera, kernel, width, height, &mut pixels).total());
+    let times = by_kernel(options.budget, |kernel| {
+        rays = render_display(scene, camera, kernel, width, height, &mut pixels).total();
+    });
     let of = |(kernel, times): (&Kernel, _)| measured("frame", *kernel, rays, 0, 0.0, times);
     Kernel::ALL.iter().zip(times).map(of).collect()
 }
 
 /// Runs every kernel in turn until the budget is spent; the times of each, in seconds.
-fn take_turns(mut run: impl FnMut(Kernel)) -> Vec<Vec<f64>> {
-    let mut times = vec![Vec::new(); Kernel::ALL.len()];
-    Kernel::ALL.into_iter().for_each(&mut run);
-    let start = Instant::now();
-    while times[0].len() < *RUNS.end() && (times[0].len() < *RUNS.start() || start.elapsed() < BUDGET) {
-        for (kernel, times) in Kernel::ALL.into_iter().zip(&mut times) {
-            let start = Instant::now();
-            run(kernel);
-            times.push(start.elapsed().as_secs_f64());
-        }
-    }
-    times
+fn by_kernel(budget: Duration, mut run: impl FnMut(Kernel)) -> Vec<Vec<f64>> {
+    take_turns(Kernel::ALL.len(), budget, |i| run(Kernel::ALL[i]))
 }
 
-fn measured(query: &str, kernel: Kernel, rays: u64, hits: u64, sum_t: f64, mut times: Vec<f64>) -> Measured {
-    times.sort_by(f64::total_cmp);
-    let mrays = |seconds: f64| if rays == 0 { 0.0 } else { rays as f64 / seconds.max(1e-9) * 1e-6 };
-    Measured {
-        query: query.into(),
-        kernel: kernel.name(),
-        rays,
-        hits,
-        sum_t,
-        mrays_median: mrays(times[times.len() / 2]),
-        mrays_best: mrays(times[0]),
-    }
+fn measured(query: &str, kernel: Kernel, rays: u64, hits: u64, sum_t: f64, times: Vec<f64>) -> Measured {
+    let Times { median, best, spread, runs } = Times::of(times);
+    let [mrays_median, mrays_best] = [median, best].map(|seconds| rays as f64 / seconds * 1e-6);
+    Measured { query: query.into(), kernel: kernel.name(), rays, hits, sum_t, mrays_median, mrays_best, runs, spread }
 }
 
 /// The answers to a set of batches.
@@ -285,8 +283,14 @@ impl fmt::Display for Report {
         for r in &self.results {
             write!(
                 f,
-                "\n{:12} {:6} {:>10} {:>10} {:>12.2} {:>12.2}",
-                r.query, r.kernel, r.rays, r.hits, r.mrays_median, r.mrays_best
+                "\n{:12} {:6} {:>10} {:>10} {:>12.2} {:>12.2}{}",
+                r.query,
+                r.kernel,
+                r.rays,
+                r.hits,
+                r.mrays_median,
+                r.mrays_best,
+                noise(r.spread)
             )?;
         }
         Ok(())

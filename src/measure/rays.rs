@@ -2,7 +2,7 @@
 //! inactive ray.
 
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::math::{BATCH, RayBatch};
@@ -116,10 +116,44 @@ fn check(n: &[f32; 8]) -> Result<(), String> {
     Ok(())
 }
 
+/// Writes batches as [`read`] reads them, and gives the number of active rays in them. All but the last are filled up with
+/// inactive rays, so that they come back as the same batches. A ray of numbers that `read` would not take is inactive in
+/// the file; it hits nothing.
+///
+/// # Errors
+/// When `to` cannot be written.
+pub fn write(batches: &[RayBatch], to: &mut impl Write) -> io::Result<u64> {
+    let mut active = 0;
+    for (i, batch) in batches.iter().enumerate() {
+        let len = if i + 1 == batches.len() { batch.len } else { BATCH };
+        for ray in 0..len {
+            let record = record(batch, ray).unwrap_or(INACTIVE);
+            active += u64::from(record[7] >= 0.0);
+            for number in record {
+                to.write_all(&number.to_le_bytes())?;
+            }
+        }
+    }
+    Ok(active)
+}
+
+/// An inactive ray's record.
+const INACTIVE: [f32; 8] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0];
+
+/// An active ray's record.
+fn record(batch: &RayBatch, ray: usize) -> Option<[f32; 8]> {
+    if ray >= batch.len || batch.t_max[ray].is_nan() || batch.t_max[ray] < 0.0 {
+        return None;
+    }
+    let [x, y, z] = batch.origin.map(|column| column[if batch.common_origin { 0 } else { ray }]);
+    let [u, v, w] = batch.direction.map(|column| column[ray]);
+    let record = [x, y, z, batch.t_min[ray], u, v, w, batch.t_max[ray]];
+    check(&record).is_ok().then_some(record)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write;
 
     fn file(rays: &[[f32; 8]], extra: usize) -> tempfile::NamedTempFile {
         let mut file = tempfile::NamedTempFile::new().unwrap();
@@ -142,6 +176,33 @@ mod tests {
         assert_eq!(batches.iter().map(RayBatch::active).sum::<usize>(), 299);
         assert_eq!((batches[1].origin[0][2], batches[1].direction[1][2], batches[1].t_max[1]), (9.0, 0.6, -1.0));
         assert!(batches[0].common_origin && !batches[1].common_origin);
+    }
+
+    #[test]
+    fn what_is_written_comes_back() {
+        let mut batches = vec![RayBatch::default(); 2];
+        for i in 0..5 {
+            batches[0].push(Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.0, 0.6, 0.8), 0.5, i as f32);
+            batches[1].push(Vec3::new(i as f32, 2.0, 3.0), Vec3::new(0.8, 0.6, 0.0), 0.0, f32::INFINITY);
+        }
+        batches[0].push_inactive();
+        batches[1].push(Vec3::NAN, Vec3::X, 0.0, 1.0);
+        assert!(batches[0].common_origin);
+        let mut bytes = Vec::new();
+        assert_eq!(write(&batches, &mut bytes).unwrap(), 10);
+        assert_eq!(bytes.len(), RECORD * (BATCH + 6));
+        let mut file = tempfile::NamedTempFile::new().unwrap();
+        file.write_all(&bytes).unwrap();
+        let back = read(file.path()).unwrap();
+        assert_eq!(back.iter().map(RayBatch::active).collect::<Vec<_>>(), [5, 5]);
+        assert_eq!(back.iter().map(|b| b.common_origin).collect::<Vec<_>>(), [true, false]);
+        for (batch, back) in batches.iter().zip(&back) {
+            for i in 0..5 {
+                assert_eq!(record(batch, i), record(back, i), "{i}");
+                assert!(record(batch, i).is_some());
+            }
+            assert_eq!(record(back, 5), None);
+        }
     }
 
     #[test]

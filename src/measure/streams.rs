@@ -22,6 +22,14 @@ pub struct Streams {
 }
 
 impl Streams {
+    /// The names of the kinds, in the order of the fields.
+    pub const KINDS: [&'static str; 4] = ["primary", "shadow", "reflection", "refraction"];
+
+    /// The batches of all kinds, in the order of [`Self::KINDS`].
+    pub fn kinds(&self) -> [&[RayBatch]; 4] {
+        [&self.primary, &self.shadow, &self.reflection, &self.refraction]
+    }
+
     /// The rays of a picture of `width` × `height`.
     pub fn of(scene: &Scene, camera: &Camera, width: usize, height: usize) -> Self {
         let tiles = width.div_ceil(crate::render::TILE) * height.div_ceil(crate::render::TILE);

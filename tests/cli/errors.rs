@@ -96,6 +96,10 @@ fn outputs_that_cannot_be_written() {
     for wrong in ["a.jpg", "a", "a.png.gz", "good.toml"] {
         render(wrong).failed(2, &[wrong, ".png", ".exr"]);
     }
+    for args in ["bench --svg no/a.svg", "contest --append no/a.jsonl"] {
+        raypacket(folder.path(), args).failed(2, &["no/a."]);
+    }
+    raypacket(folder.path(), "bench --save-rays good.toml").failed(2, &["good.toml", "not a folder"]);
     for command in ["bench", "verify"] {
         raypacket(folder.path(), &format!("{command} --json no/a.json")).failed(2, &["no/a.json"]);
     }
@@ -145,6 +149,8 @@ fn wrong_usage() {
         ("--frobnicate", "--frobnicate"),
         ("scenes classic", "classic"),
         ("bench --threads 0", "1..=1024"),
+        ("bench --rays a --save-rays b", "cannot be used with"),
+        ("contest --frames 0", "1..=1000"),
         ("verify --json", "json"),
     ];
     for (args, words) in cases {

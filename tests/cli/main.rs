@@ -1,8 +1,10 @@
 //! The command line as its users meet it: status, messages, files.
 
+mod contest;
 mod errors;
 mod measures;
 mod pictures;
+mod runs;
 
 use assert_cmd::cargo::cargo_bin_cmd;
 use std::fs;
@@ -169,7 +171,7 @@ fn help_and_version() {
     let folder = folder();
     assert!(raypacket(folder.path(), "--version").good().stdout.starts_with("raypacket "));
     let help = raypacket(folder.path(), "--help").good().stdout;
-    for command in ["view", "render", "bench", "verify", "chart", "info", "scenes"] {
+    for command in ["view", "render", "bench", "contest", "verify", "chart", "info", "scenes"] {
         assert!(help.lines().any(|line| line.trim_start().starts_with(command)), "no {command} in {help}");
         raypacket(folder.path(), &format!("{command} --help")).good();
     }

@@ -17,12 +17,19 @@ fn check_bench(report: &Value, scene: &str, threads: u64) {
     assert_eq!(report["threads"], threads);
     assert_eq!(report["isa"], raypacket::math::isa());
     assert_eq!(report["valid"], true);
+    let text = |key: &str| report[key].as_str().unwrap_or_else(|| panic!("no {key} in {report}"));
+    assert!(!text("cpu").is_empty() && !text("commit").is_empty());
+    assert_eq!(text("version"), env!("CARGO_PKG_VERSION"));
+    let date: String = text("date").chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+    assert_eq!(date, "0000-00-00T00:00:00Z");
     for result in report["results"].as_array().expect("results") {
         assert!(["x1", "x4", "x8"].contains(&result["kernel"].as_str().expect("kernel")), "{result}");
         assert!(result["rays"].is_u64() && result["hits"].is_u64(), "{result}");
         assert!(result["sum_t"].as_f64().is_some_and(|t| t >= 0.0), "{result}");
         let (median, best) = (result["mrays_median"].as_f64().unwrap(), result["mrays_best"].as_f64().unwrap());
         assert!(0.0 < median && median <= best, "{result}");
+        assert!(result["runs"].as_u64().is_some_and(|runs| (3..=31).contains(&runs)), "{result}");
+        assert!(result["spread"].as_f64().is_some_and(|spread| spread >= 0.0), "{result}");
     }
 }
 

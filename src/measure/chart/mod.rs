@@ -7,6 +7,8 @@
 //! | `epsilon` | acne and leaks by offset, over the scene's scale |
 //! | `frames` | ms a frame against the picture's error |
 //! | `heat-…` | errors over the screen, where textbook methods fail |
+//!
+//! Besides, [`rates()`] and [`ratios()`] draw what [`super::bench`] and [`super::against`] found.
 
 mod axis;
 mod canvas;
@@ -15,11 +17,16 @@ mod failure;
 mod frames;
 mod heat;
 mod job;
+mod rates;
+mod ratios;
+mod scale;
 mod speed_error;
 mod style;
 mod table;
 
 pub use job::Chart;
+pub use rates::rates;
+pub use ratios::ratios;
 pub use table::Table;
 
 use crate::measure::lab::{Budget, HEATS, Machine};

@@ -162,3 +162,35 @@ fn heat_maps_of_the_textbook_failures() {
     }
     assert!(draw("heat-x", &TINY, &Machine::this(), &|_| ()).unwrap_err().contains("heat-acne"));
 }
+
+#[test]
+fn rates_and_ratios_of_runs() {
+    use crate::measure::against::{Comparison, Run};
+    use crate::measure::bench;
+    let description = crate::scene::load("classic").unwrap();
+    let scene = crate::scene::compile(&description).unwrap();
+    let options = bench::Options { size: [16, 8], rays: None, budget: std::time::Duration::ZERO };
+    let mut report = bench::run(&description, &scene, &options).unwrap();
+    report.scene = "<s>\u{7}".into();
+    report.results[0].spread = 0.5;
+    report.results[1].spread = 0.01;
+    let machine = Machine { cpu: "A & B".into(), ..Machine::this() };
+    let text = rates(&[report.clone(), report.clone()], &machine);
+    assert!(!text.contains("NaN") && !text.contains("inf") && !text.contains('\u{7}'));
+    let words = well_formed(&text);
+    for part in ["&lt;s&gt;?, 16 × 8", "primary", "reflection", "frame", "x4", " noisy", "A &amp; B"] {
+        assert!(words.contains(part), "no {part:?} in {words}");
+    }
+    let mut faster = report.clone();
+    faster.results.iter_mut().for_each(|row| row.mrays_median *= 4.0);
+    let comparison = Comparison::new(&[Run::from(&report)], &[Run::from(&faster)]);
+    let text = ratios(&comparison, &machine);
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+    let words = well_formed(&text);
+    for part in ["&lt;s&gt;?  primary  x1", "4.000  faster", "A &amp; B"] {
+        assert!(words.contains(part), "no {part:?} in {words}");
+    }
+    let nothing = Comparison::new(&[], &[]);
+    well_formed(&ratios(&nothing, &machine));
+    well_formed(&rates(&[], &machine));
+}
