@@ -3,6 +3,7 @@
 #[cfg(feature = "files")]
 pub mod output;
 
+mod adaptive;
 mod buffer;
 mod camera;
 mod film;
@@ -10,6 +11,7 @@ mod kernel;
 mod tile;
 
 pub use crate::shade::Counts;
+pub use adaptive::render_adaptive;
 pub use buffer::{Cancelled, render_into};
 pub use camera::Camera;
 pub(crate) use film::Tone;

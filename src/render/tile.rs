@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::kernel::with_lanes;
 use super::{Camera, Film, Kernel, Tone};
-use crate::math::{BATCH, HitBatch, Lanes, NONE, RayBatch, Vec3, map2, map3};
+use crate::math::{BATCH, HitBatch, Lanes, MAX_LANES, NONE, RayBatch, Vec3, map2};
 use crate::scene::Scene;
 use crate::shade::{Counts, Observer, Stage, Workspace, facing_normal, trace_waves};
 use crate::trace::{Scratch, intersect};
@@ -21,7 +21,7 @@ const _: () = assert!(TILE * TILE == BATCH);
 
 /// Where ray i lies in its tile, `[x, y]`: blocks of 4 × 4 pixels, row by row within and among them, so that 4 and
 /// 8 rays in a row are 4 × 1 and 4 × 2 pixels.
-const PLACE: [[u8; 2]; BATCH] = {
+pub(super) const PLACE: [[u8; 2]; BATCH] = {
     let mut place = [[0; 2]; BATCH];
     let mut i = 0;
     while i < BATCH {
@@ -60,23 +60,52 @@ impl Grid {
     /// Fills a batch with the eye rays of the tile whose first pixel is `first`, through the point `within` of every
     /// pixel (½, ½ is the centre). Rays beyond the picture's edge are inactive.
     pub(crate) fn fill<L: Lanes>(&self, first: [usize; 2], within: [f32; 2], rays: &mut RayBatch) {
-        // The tile's own corner and steps, from f64: what is added to it in a tile is small beside it.
-        let [width, height] = [self.width as f64, self.height as f64];
-        let [step_x, step_y] = [self.camera.across / width, self.camera.down / height];
-        let corner = self.camera.corner
-            + step_x * (first[0] as f64 + f64::from(within[0]))
-            + step_y * (first[1] as f64 + f64::from(within[1]));
-        let [corner, across, down] = map3([corner, step_x, step_y], |v| Vec3::splat(v.as_vec3()));
+        let corner = Vec3::splat(self.corner(first, within));
+        self.fill_places::<L>(&OFFSET, |_| corner, BATCH, rays);
+        if first[0] + TILE <= self.width && first[1] + TILE <= self.height {
+            return;
+        }
         let left = map2([self.width - first[0], self.height - first[1]], |n| L::splat(n as f32));
-        rays.set_common_origin(self.camera.eye);
-        rays.len = BATCH;
         for at in (0..BATCH).step_by(L::WIDTH) {
-            let (x, y) = (L::load(&OFFSET[0][at..]), L::load(&OFFSET[1][at..]));
-            let direction = across.mul_add(x, down.mul_add(y, corner)).normalize();
-            let active = x.lt(left[0]) & y.lt(left[1]);
-            direction.store(&mut rays.direction, at);
+            let active = L::load(&OFFSET[0][at..]).lt(left[0]) & L::load(&OFFSET[1][at..]).lt(left[1]);
             L::splat(f32::INFINITY).select(active, L::splat(-1.0)).store(&mut rays.t_max[at..]);
         }
+    }
+
+    /// The direction through the point `within` of a tile's first pixel, of any length.
+    pub(super) fn corner(&self, first: [usize; 2], within: [f32; 2]) -> glam::Vec3 {
+        // The tile's own corner, from f64: what is added to it in a tile is small beside it.
+        let [across, down] = self.steps();
+        let corner = self.camera.corner
+            + across * (first[0] as f64 + f64::from(within[0]))
+            + down * (first[1] as f64 + f64::from(within[1]));
+        corner.as_vec3()
+    }
+
+    /// From a pixel to the next, and to the one below.
+    fn steps(&self) -> [glam::DVec3; 2] {
+        [self.camera.across / self.width as f64, self.camera.down / self.height as f64]
+    }
+
+    /// Fills a batch with `len` eye rays, through the pixels at `places` of a tile with a [`Grid::corner`] for each.
+    pub(super) fn fill_places<L: Lanes>(
+        &self,
+        places: &[[f32; BATCH]; 2],
+        corner: impl Fn(usize) -> Vec3<L>,
+        len: usize,
+        rays: &mut RayBatch,
+    ) {
+        let [across, down] = map2(self.steps(), |step| Vec3::splat(step.as_vec3()));
+        rays.set_common_origin(self.camera.eye);
+        // Whole packets are written; what is too much is taken back.
+        rays.set_len(len.next_multiple_of(MAX_LANES));
+        for at in (0..len).step_by(L::WIDTH) {
+            let (x, y) = (L::load(&places[0][at..]), L::load(&places[1][at..]));
+            let direction = across.mul_add(x, down.mul_add(y, corner(at))).normalize();
+            direction.store(&mut rays.direction, at);
+            L::splat(f32::INFINITY).store(&mut rays.t_max[at..]);
+        }
+        rays.set_len(len);
     }
 }
 
@@ -181,7 +210,7 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct Work {
-    shading: Workspace,
+    pub(super) shading: Workspace,
     sum: [[f32; BATCH]; 3],
     hits: HitBatch,
     candidates: Scratch,
@@ -199,7 +228,7 @@ impl Default for Work {
 }
 
 /// Runs `tile` on every tile, rows of tiles in parallel, and stores the pixels it gives, ray by ray, where they belong.
-fn over_tiles<P: Copy + Default + Send>(
+pub(super) fn over_tiles<P: Copy + Default + Send>(
     pixels: &mut [P],
     width: usize,
     tile: impl Fn(&mut Work, [usize; 2], &mut [P; BATCH]) -> Counts + Sync,

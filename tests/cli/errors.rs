@@ -138,6 +138,8 @@ fn wrong_usage() {
         ("render -o a.png --threads many", "threads"),
         ("render -o a.png --samples 0", "1..=64"),
         ("render -o a.png --samples 65", "1..=64"),
+        ("render -o a.png --samples adaptiv", "`adaptive`"),
+        ("render -o a.png --samples adaptive --kernel reference", "give it a number"),
         ("render -o a.png --kernel x16", "x8"),
         ("render -o a.png --aov colour", "depth"),
         ("render -o a.png --aov depth --samples 2", "cannot be used with"),
