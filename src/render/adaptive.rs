@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::tile::{Grid, PLACE, TILE, Work, over_tiles};
 use super::{Camera, Counts, Film, Kernel, Tone};
-use crate::math::{BATCH, Lanes, Vec3};
+use crate::math::{BATCH, Lanes, Vec3, map3};
 use crate::render::kernel::with_lanes;
 use crate::scene::Scene;
 use crate::shade::trace_waves;
@@ -146,7 +146,7 @@ fn look_closer<L: Lanes>(
         }
         out[i] = near.seen[y * near.width + x].sum;
         match near.alike([x, y]) {
-            true => out[i] = out[i].map(|sum| sum * (1.0 / GRID as f32)),
+            true => out[i] = map3(out[i], |sum| sum * (1.0 / GRID as f32)),
             false => closer.push(i as u8),
         }
     }
@@ -168,7 +168,7 @@ fn look_closer<L: Lanes>(
     }
     for i in closer {
         let pixel = &mut out[usize::from(i)];
-        *pixel = pixel.map(|sum| sum * (1.0 / (GRID * GRID) as f32));
+        *pixel = map3(*pixel, |sum| sum * (1.0 / (GRID * GRID) as f32));
     }
     counts
 }

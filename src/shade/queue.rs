@@ -34,6 +34,13 @@ impl Clone for Queue {
     }
 }
 
+/// Apart, as a wave lies on the stack while it is made.
+#[cold]
+#[inline(never)]
+fn wave() -> Box<Wave> {
+    Box::default()
+}
+
 /// Waves of one depth and kind; all but the last are full.
 type Line = std::collections::VecDeque<Box<Wave>>;
 
@@ -58,7 +65,7 @@ impl Queue {
     /// A wave without rays.
     #[inline(always)]
     pub fn spare(&mut self) -> Box<Wave> {
-        let mut wave = self.free.pop().unwrap_or_default();
+        let mut wave = self.free.pop().unwrap_or_else(wave);
         wave.rays.clear();
         wave
     }

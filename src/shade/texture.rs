@@ -1,6 +1,6 @@
 //! Colours from images: bilinear between the four nearest texel centres.
 
-use crate::math::{Lanes, MAX_LANES, Vec3, linear_of_bytes};
+use crate::math::{Lanes, MAX_LANES, Vec3, linear_of_bytes, map3};
 use crate::scene::Texture;
 
 /// The linear colour at (u, v); see [`Texture`].
@@ -12,7 +12,7 @@ pub fn sample<L: Lanes>(texture: &Texture, u: L, v: L) -> Vec3<L> {
     let columns = Span::repeating(u, texture.width);
     let rows = Span::repeating(-v, texture.height);
     let linear = linear_of_bytes();
-    bilinear(columns, rows, texture.width, |texel| texture.texels[texel].map(|byte| linear[usize::from(byte)]))
+    bilinear(columns, rows, texture.width, |texel| map3(texture.texels[texel], |byte| linear[usize::from(byte)]))
 }
 
 /// Two neighbouring columns or rows in every lane, and how far from the first to the second.
@@ -52,8 +52,12 @@ impl Span {
         let index = |whole: L| {
             let mut lanes = [0.0; MAX_LANES];
             whole.store(&mut lanes);
-            // NaN becomes 0.
-            lanes.map(|whole| (whole as usize).min(count - 1))
+            let mut index = [0; MAX_LANES];
+            for (index, whole) in index.iter_mut().zip(lanes) {
+                // NaN becomes 0.
+                *index = (whole as usize).min(count - 1);
+            }
+            index
         };
         let finite = part.ge(L::zero());
         let mut lanes = [0.0; MAX_LANES];

@@ -30,6 +30,13 @@ impl Scratch {
     /// Memory for the way through a tree.
     #[inline(always)]
     pub(super) fn tree(&mut self) -> &mut State {
-        self.tree.get_or_insert_default()
+        self.tree.get_or_insert_with(room)
     }
+}
+
+/// Apart, as the state lies on the stack while it is made: a frame of that size costs every call of who has it.
+#[cold]
+#[inline(never)]
+fn room() -> Box<State> {
+    Box::default()
 }
