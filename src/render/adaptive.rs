@@ -50,7 +50,8 @@ struct Seen {
 ///
 /// A pixel gets all rays when its first four and 20 near ones of its neighbours differ by more than 5 of 255 display codes
 /// in any channel. So most pixels are within 2 codes of the full grid's. A pixel is further off where none of the 24 rays
-/// meets what a smaller or fainter thing adds to it, such as a spark in a mirror. `progress` is called as by [`render`](super::render()).
+/// meets what a smaller or fainter thing adds to it, such as a spark in a mirror. While it works it holds 28 bytes a pixel
+/// beside the film. `progress` is called as by [`render`](super::render()).
 pub fn render_adaptive(
     scene: &Scene,
     camera: &Camera,
