@@ -8,7 +8,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use raypacket::files::Target;
 use raypacket::reference;
 use raypacket::render::output::{Aov, Format, write_aov, write_film};
-use raypacket::render::{Camera, Film, Kernel, PrimaryHits, primary_hits, render, render_adaptive};
+use raypacket::render::{ALIKE, Camera, Film, Kernel, PrimaryHits, Samples, primary_hits, render_samples};
 use raypacket::scene::{Description, Scene};
 use raypacket::trace::NONE;
 use std::path::PathBuf;
@@ -25,8 +25,9 @@ pub struct Args {
     /// The picture's width and height in pixels
     #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "1024x512")]
     size: Size,
-    /// N x N rays a pixel on a regular grid, 1 to 64, or adaptive: 4 x 4 where the picture needs them, and 4 elsewhere
-    #[arg(long, allow_negative_numbers = true, value_name = "N|adaptive", default_value = "1", value_parser = samples)]
+    /// N x N rays a pixel on a regular grid, 1 to 64, or adaptive: 4 x 4 where neighbours differ by more than 5 of 255
+    /// display codes, or adaptive:CODES, and 4 elsewhere
+    #[arg(long, allow_negative_numbers = true, value_name = "N|adaptive[:CODES]", default_value = "1", value_parser = samples)]
     samples: Samples,
     /// How many rays are traced at once, or the slow scalar tracer that all else is checked against
     #[arg(long, default_value = "x8", value_parser = tracer())]
@@ -47,20 +48,15 @@ enum Tracer {
     Reference,
 }
 
-/// How many rays a pixel gets.
-#[derive(Clone, Copy, PartialEq)]
-enum Samples {
-    /// So many along each edge.
-    Grid(u32),
-    /// See [`render_adaptive`].
-    Adaptive,
-}
-
 fn samples(text: &str) -> Result<Samples, String> {
     match text.parse() {
         Ok(n @ 1..=64) => Ok(Samples::Grid(n)),
-        _ if text == "adaptive" => Ok(Samples::Adaptive),
-        _ => Err("not in 1..=64, and not `adaptive`".into()),
+        _ if text == "adaptive" => Ok(Samples::Adaptive(ALIKE)),
+        _ => match text.strip_prefix("adaptive:").map(str::parse) {
+            None => Err("not in 1..=64, and not `adaptive`".into()),
+            Some(Ok(codes)) => Ok(Samples::Adaptive(codes)),
+            Some(Err(_)) => Err("after `adaptive:` come 0 to 255 display codes".into()),
+        },
     }
 }
 
@@ -94,7 +90,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let Some(format) = Format::of(&args.output) else {
         return Err(Failure::input(format!("{}: a picture is a .png or .exr file", args.output.display())));
     };
-    if args.kernel == Tracer::Reference && args.samples == Samples::Adaptive {
+    if args.kernel == Tracer::Reference && matches!(args.samples, Samples::Adaptive(_)) {
         return Err(Failure::input("--samples adaptive: the reference traces all rays; give it a number"));
     }
     let threads = args.threads.start();
@@ -137,10 +133,7 @@ fn film(args: &Args, description: &Description, scene: &Scene) -> Film {
             let camera = Camera::new(&description.camera, args.size.aspect());
             let progress = Progress::new();
             let set = |share| progress.set(share);
-            match args.samples {
-                Samples::Grid(n) => render(scene, &camera, kernel, n, &mut film, &set),
-                Samples::Adaptive => render_adaptive(scene, &camera, kernel, &mut film, &set),
-            };
+            render_samples(scene, &camera, kernel, args.samples, &mut film, &set);
         }
         Tracer::Reference => {
             let Samples::Grid(samples) = args.samples else { return film };

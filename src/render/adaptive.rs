@@ -33,8 +33,9 @@ const AROUND: [([isize; 2], [u32; GRID]); 8] = [
 ];
 /// A ray that counts.
 const ALL: u32 = u32::MAX;
-/// The display codes by which a pixel's first rays and its neighbours' may differ, so that its first are enough.
-const ALIKE: u8 = 5;
+
+/// The display codes that may differ where nobody asks for another number.
+pub const ALIKE: u8 = 5;
 
 /// What the first rays of a pixel have found.
 #[derive(Clone, Copy, Default)]
@@ -48,14 +49,15 @@ struct Seen {
 /// Renders with 16 rays a pixel where the picture needs them, and 4 elsewhere, in the caller's rayon pool; the 16 are
 /// those of [`render`](super::render()) with 4 samples.
 ///
-/// A pixel gets all rays when its first four and 20 near ones of its neighbours differ by more than 5 of 255 display codes
-/// in any channel. So most pixels are within 2 codes of the full grid's. A pixel is further off where none of the 24 rays
-/// meets what a smaller or fainter thing adds to it, such as a spark in a mirror. While it works it holds 28 bytes a pixel
-/// beside the film. `progress` is called as by [`render`](super::render()).
+/// A pixel gets all rays when its first four and 20 near ones of its neighbours differ by more than `codes` of 255 display
+/// codes in any channel; with [`ALIKE`] most pixels are within 2 codes of the full grid's. A pixel is further off where none
+/// of the 24 rays meets what a smaller or fainter thing adds to it, such as a spark in a mirror. While it works it holds 28
+/// bytes a pixel beside the film. `progress` is called as by [`render`](super::render()).
 pub fn render_adaptive(
     scene: &Scene,
     camera: &Camera,
     kernel: Kernel,
+    codes: u8,
     film: &mut Film,
     progress: &(dyn Fn(f32) + Sync),
 ) -> Counts {
@@ -75,7 +77,7 @@ pub fn render_adaptive(
         counts
     });
     let others = over_tiles(&mut film.pixels, width, |work, first, out| {
-        let near = Near { seen: &seen, width, height };
+        let near = Near { seen: &seen, width, height, codes };
         let counts = with_lanes!(kernel, look_closer(scene, &grid, first, work, &near, out));
         row_done(first);
         counts
@@ -111,6 +113,8 @@ struct Near<'a> {
     seen: &'a [Seen],
     width: usize,
     height: usize,
+    /// By how much what is alike may differ.
+    codes: u8,
 }
 
 impl Near<'_> {
@@ -132,7 +136,7 @@ impl Near<'_> {
         (0..4).all(|axis| {
             let four = [axis, axis + 4, axis + 8, axis + 12];
             let [least, most] = four.iter().fold([u8::MAX, 0], |[l, m], &i| [l.min(least[i]), m.max(most[i])]);
-            most - least <= ALIKE
+            most - least <= self.codes
         })
     }
 }

@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::tile::{Grid, averaged, over_tiles_while};
+use super::samples::averaged;
+use super::tile::{Grid, over_tiles_while};
 use super::{Camera, Counts, Kernel, TILE};
 use crate::scene::Scene;
 

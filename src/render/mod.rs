@@ -8,10 +8,11 @@ mod buffer;
 mod camera;
 mod film;
 mod kernel;
+mod samples;
 mod tile;
 
 pub use crate::shade::Counts;
-pub use adaptive::render_adaptive;
+pub use adaptive::{ALIKE, render_adaptive};
 pub use buffer::{Cancelled, render_into};
 pub use camera::Camera;
 pub(crate) use film::Tone;
@@ -19,6 +20,5 @@ pub use film::{Film, tone_map};
 pub use kernel::Kernel;
 #[cfg(feature = "lab")]
 pub(crate) use kernel::with_lanes;
-pub use tile::{
-    PrimaryHits, TILE, primary_hits, record, render, render_display, render_display_while, render_observed,
-};
+pub use samples::{Samples, render, render_samples};
+pub use tile::{PrimaryHits, TILE, primary_hits, record, render_display, render_display_while, render_observed};

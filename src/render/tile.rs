@@ -1,14 +1,14 @@
 //! Tiles: 16 × 16 pixels whose rays go through the tracer together.
 //!
-//! A rayon task is a row of tiles, since its pixels lie together in memory and can be written without locks; the
-//! picture depends neither on the order of the tiles nor on the number of threads.
+//! A rayon task is a few tiles of a row, whose pixels it owns and writes without locks; the picture depends neither on the
+//! order of the tiles nor on the number of threads.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Mutex;
 
 use rayon::prelude::*;
 
 use super::kernel::with_lanes;
-use super::{Camera, Film, Kernel, Tone};
+use super::{Camera, Kernel, Tone};
 use crate::math::{BATCH, HitBatch, Lanes, MAX_LANES, NONE, RayBatch, Vec3, map2};
 use crate::scene::Scene;
 use crate::shade::{Counts, Observer, Stage, Workspace, facing_normal, trace_waves};
@@ -48,7 +48,7 @@ const OFFSET: [[f32; BATCH]; 2] = {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     camera: Camera,
-    width: usize,
+    pub(super) width: usize,
     height: usize,
 }
 
@@ -62,12 +62,22 @@ impl Grid {
     pub(crate) fn fill<L: Lanes>(&self, first: [usize; 2], within: [f32; 2], rays: &mut RayBatch) {
         let corner = Vec3::splat(self.corner(first, within));
         self.fill_places::<L>(&OFFSET, |_| corner, BATCH, rays);
+        self.end_at_edges::<L>(first, &OFFSET, rays);
+    }
+
+    /// Whether a pixel lies in the picture.
+    pub(super) fn has(&self, [x, y]: [usize; 2]) -> bool {
+        x < self.width && y < self.height
+    }
+
+    /// Makes the rays of a batch, through pixels at `places` of a tile, inactive beyond the picture's edge.
+    pub(super) fn end_at_edges<L: Lanes>(&self, first: [usize; 2], places: &[[f32; BATCH]; 2], rays: &mut RayBatch) {
         if first[0] + TILE <= self.width && first[1] + TILE <= self.height {
             return;
         }
         let left = map2([self.width - first[0], self.height - first[1]], |n| L::splat(n as f32));
         for at in (0..BATCH).step_by(L::WIDTH) {
-            let active = L::load(&OFFSET[0][at..]).lt(left[0]) & L::load(&OFFSET[1][at..]).lt(left[1]);
+            let active = L::load(&places[0][at..]).lt(left[0]) & L::load(&places[1][at..]).lt(left[1]);
             L::splat(f32::INFINITY).select(active, L::splat(-1.0)).store(&mut rays.t_max[at..]);
         }
     }
@@ -107,30 +117,6 @@ impl Grid {
         }
         rays.set_len(len);
     }
-}
-
-/// Renders with `samples` × `samples` rays a pixel on a regular grid, in the caller's rayon pool.
-///
-/// `progress` is called now and then with the share done, 0 to 1, from any thread.
-pub fn render(
-    scene: &Scene,
-    camera: &Camera,
-    kernel: Kernel,
-    samples: u32,
-    film: &mut Film,
-    progress: &(dyn Fn(f32) + Sync),
-) -> Counts {
-    let grid = Grid::new(camera, film.width, film.height);
-    let done = AtomicUsize::new(0);
-    let rows = film.height.div_ceil(TILE);
-    over_tiles(&mut film.pixels, film.width, |work, first, out| {
-        let counts = averaged(scene, &grid, first, kernel, samples, work, out);
-        if first[0] + TILE >= grid.width {
-            let rows_done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            progress(rows_done as f32 / rows as f32);
-        }
-        counts
-    })
 }
 
 /// Renders one sample a pixel straight to 0RGB with the sRGB curve, for a window; `pixels` holds width × height.
@@ -211,7 +197,7 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
 #[repr(align(64))]
 pub(super) struct Work {
     pub(super) shading: Workspace,
-    sum: [[f32; BATCH]; 3],
+    pub(super) sum: [[f32; BATCH]; 3],
     hits: HitBatch,
     candidates: Scratch,
 }
@@ -243,34 +229,62 @@ pub(super) fn over_tiles_while<P: Copy + Default + Send>(
     go_on: &(dyn Fn() -> bool + Sync),
     tile: impl Fn(&mut Work, [usize; 2], &mut [P; BATCH]) -> Counts + Sync,
 ) -> Counts {
-    if width == 0 {
-        return Counts::default();
-    }
-    let strip = |work: &mut Box<Work>, (row, strip): (usize, &mut [P])| {
+    // Work is kept for the next task, whichever thread does it.
+    let spare = Mutex::new(Vec::<Box<Work>>::new());
+    let part = |part: &mut Part<P>| {
+        let mut work = spare.lock().expect("no panic").pop().unwrap_or_default();
         let mut counts = Counts::default();
         let mut done = [P::default(); BATCH];
-        for x0 in (0..width).step_by(TILE).take_while(|_| go_on()) {
-            counts = counts + tile(work, [x0, row * TILE], &mut done);
-            put(&done, strip, width, x0);
+        for x in (0..part.rows[0].len()).step_by(TILE).take_while(|_| go_on()) {
+            counts = counts + tile(&mut work, [part.first[0] + x, part.first[1]], &mut done);
+            put(&done, &mut part.rows, x);
         }
+        spare.lock().expect("no panic").push(work);
         counts
     };
-    let strips = pixels.par_chunks_mut(width * TILE).enumerate();
-    strips.map_init(Box::<Work>::default, strip).reduce(Counts::default, |a, b| a + b)
+    // Each part may be stolen alone: else a thread is left at the end with several, and the others wait.
+    parts(pixels, width).par_iter_mut().with_max_len(1).map(part).reduce(Counts::default, |a, b| a + b)
 }
 
-/// Stores a tile whose left edge is `x0` in its row of tiles; what lies beyond the picture's edge is left out.
-fn put<P: Copy>(tile: &[P; BATCH], strip: &mut [P], width: usize, x0: usize) {
-    let height = strip.len() / width;
+/// A task: some tiles of a row of tiles.
+struct Part<'a, P> {
+    /// The first pixel.
+    first: [usize; 2],
+    /// The pixels, row by row; those beyond the picture's edge are empty.
+    rows: [&'a mut [P]; TILE],
+}
+
+/// Tiles of a task: few, so that threads are done at about the same time.
+const TILES: usize = 8;
+
+/// A picture in parts.
+fn parts<P>(pixels: &mut [P], width: usize) -> Vec<Part<'_, P>> {
+    let mut parts = Vec::new();
+    for (row, strip) in pixels.chunks_mut((width * TILE).max(1)).enumerate() {
+        let from = parts.len();
+        for (y, line) in strip.chunks_mut(width.max(1)).enumerate() {
+            for (i, piece) in line.chunks_mut(TILES * TILE).enumerate() {
+                if y == 0 {
+                    let first = [i * TILES * TILE, row * TILE];
+                    parts.push(Part { first, rows: std::array::from_fn(|_| Default::default()) });
+                }
+                parts[from + i].rows[y] = piece;
+            }
+        }
+    }
+    parts
+}
+
+/// Stores a tile whose left edge is `x0` in its rows; what lies beyond the picture's edge is left out.
+fn put<P: Copy>(tile: &[P; BATCH], rows: &mut [&mut [P]; TILE], x0: usize) {
     // Four rays in a row are four pixels in a row.
     for (four, place) in tile.as_chunks::<4>().0.iter().zip(PLACE.as_chunks::<4>().0) {
-        let (x, y) = (x0 + usize::from(place[0][0]), usize::from(place[0][1]));
-        if x < width && y < height {
-            let inside = 4.min(width - x);
-            let row = &mut strip[y * width + x..][..inside];
-            match <&mut [P; 4]>::try_from(&mut *row) {
-                Ok(row) => *row = *four,
-                Err(_) => row.copy_from_slice(&four[..inside]),
+        let row = &mut rows[usize::from(place[0][1]) % TILE];
+        let x = x0 + usize::from(place[0][0]);
+        if let Some(row) = row.get_mut(x..) {
+            match row.first_chunk_mut::<4>() {
+                Some(row) => *row = *four,
+                None => row.iter_mut().zip(four).for_each(|(to, from)| *to = *from),
             }
         }
     }
@@ -279,44 +293,6 @@ fn put<P: Copy>(tile: &[P; BATCH], strip: &mut [P], width: usize, x0: usize) {
 fn centred<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], work: &mut Work) -> Counts {
     grid.fill::<L>(first, [0.5, 0.5], &mut work.shading.primary.rays);
     trace_waves::<L>(scene, &mut work.shading, &mut ())
-}
-
-/// A tile's pixels with `samples` × `samples` rays each, at least 1.
-pub(super) fn averaged(
-    scene: &Scene,
-    grid: &Grid,
-    first: [usize; 2],
-    kernel: Kernel,
-    samples: u32,
-    work: &mut Work,
-    out: &mut [[f32; 3]; BATCH],
-) -> Counts {
-    let samples = samples.max(1);
-    let scale = 1.0 / (samples * samples) as f32;
-    let counts = with_lanes!(kernel, sampled(scene, grid, first, samples, work));
-    let [r, g, b] = &work.sum;
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = [r[i] * scale, g[i] * scale, b[i] * scale];
-    }
-    counts
-}
-
-fn sampled<L: Lanes>(scene: &Scene, grid: &Grid, first: [usize; 2], samples: u32, work: &mut Work) -> Counts {
-    let mut counts = Counts::default();
-    work.sum = [[0.0; BATCH]; 3];
-    for sy in 0..samples {
-        for sx in 0..samples {
-            let within = [sx, sy].map(|s| (s as f32 + 0.5) / samples as f32);
-            grid.fill::<L>(first, within, &mut work.shading.primary.rays);
-            counts = counts + trace_waves::<L>(scene, &mut work.shading, &mut ());
-            for (sum, part) in work.sum.iter_mut().zip(&work.shading.radiance) {
-                for i in 0..BATCH {
-                    sum[i] += part[i];
-                }
-            }
-        }
-    }
-    counts
 }
 
 /// [`render_display`] on this thread, its stages shown to `observer`.
@@ -332,12 +308,13 @@ pub fn render_observed(
     let mut work = Box::<Workspace>::default();
     let mut done = [0; BATCH];
     let mut counts = Counts::default();
-    for (row, strip) in pixels.chunks_mut((width * TILE).max(1)).enumerate() {
-        for x0 in (0..width).step_by(TILE) {
-            counts = counts + with_lanes!(kernel, observed(scene, &grid, [x0, row * TILE], &mut work, observer));
+    for Part { first, mut rows } in parts(pixels, width) {
+        for x in (0..rows[0].len()).step_by(TILE) {
+            counts =
+                counts + with_lanes!(kernel, observed(scene, &grid, [first[0] + x, first[1]], &mut work, observer));
             Tone::get().map_columns(&work.radiance, &mut done);
             observer.done(Stage::Curve);
-            put(&done, strip, width, x0);
+            put(&done, &mut rows, x);
             observer.done(Stage::Store);
         }
     }

@@ -139,6 +139,7 @@ fn wrong_usage() {
         ("render -o a.png --samples 0", "1..=64"),
         ("render -o a.png --samples 65", "1..=64"),
         ("render -o a.png --samples adaptiv", "`adaptive`"),
+        ("render -o a.png --samples adaptive:256", "0 to 255 display codes"),
         ("render -o a.png --samples adaptive --kernel reference", "give it a number"),
         ("render -o a.png --kernel x16", "x8"),
         ("render -o a.png --aov colour", "depth"),

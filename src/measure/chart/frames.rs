@@ -8,7 +8,7 @@ use super::job::{Chart, Context};
 use super::style::{HEADING, Key, MARGIN, SMALL, TEXT, caption, color, legend, short, title};
 use super::table::Table;
 use crate::measure::lab::{Frame, FramesOf, Machine, PLANNED, frames};
-use crate::render::Kernel;
+use crate::render::{Kernel, Samples};
 
 const WIDTH: f64 = 1440.0;
 
@@ -30,6 +30,7 @@ fn table(scenes: &[FramesOf]) -> Table {
         "method",
         "width",
         "samples",
+        "rays",
         "ms_per_frame",
         "ms_low",
         "ms_high",
@@ -45,7 +46,8 @@ fn table(scenes: &[FramesOf]) -> Table {
                 scene,
                 &f.method,
                 &f.kernel.name(),
-                &(f.samples * f.samples),
+                &samples_of(f.samples),
+                &f.rays,
                 &f.time.median,
                 &f.time.low,
                 &f.time.high,
@@ -59,6 +61,17 @@ fn table(scenes: &[FramesOf]) -> Table {
     }
     table
 }
+
+/// As `--samples` takes it.
+fn samples_of(samples: Samples) -> String {
+    match samples {
+        Samples::Grid(n) => n.to_string(),
+        Samples::Adaptive(codes) => format!("adaptive:{codes}"),
+    }
+}
+
+/// Of adaptive samples.
+const ADAPTIVE: (Marker, usize) = (Marker::Circle, 4);
 
 fn color_of(kernel: Kernel) -> RGBColor {
     color(kernel as usize)
@@ -80,11 +93,13 @@ fn svg(scenes: &[FramesOf], context: &Context) -> String {
         title(
             canvas,
             "Whole frames: time against error",
-            "Above: 1, 4 and 9 samples a pixel by the planned methods, against the converged picture. Below: one method \
-             changed, and the share of pixels that it moves by more than 1/255.",
+            "Above: 1, 4 and 9 samples a pixel by the planned methods, at the widest 16 too, and adaptive ones, against \
+             the converged picture. Below: one method changed, and the share of pixels that it moves by more than 1/255.",
         );
-        let widths: Vec<_> =
+        let mut widths: Vec<_> =
             Kernel::ALL.iter().map(|&k| (Key::Point(marker(k), color_of(k)), k.name().to_owned())).collect();
+        widths
+            .push((Key::Point(ADAPTIVE.0, color(ADAPTIVE.1)), "x8, adaptive: 20, 5 and 1 codes may differ".to_owned()));
         legend(canvas, [MARGIN, 92.0], &widths);
         let column = (WIDTH - 2.0 * MARGIN) / scenes.len().max(1) as f64;
         for (i, scene) in scenes.iter().enumerate() {
@@ -104,18 +119,24 @@ fn samples(canvas: &mut Canvas, at: Place, width: f64, scene: &FramesOf, first: 
     let y = Axis::tight(planned().map(|f| f.error.rms));
     let panel = Panel { at, size: [width, 250.0], x, y };
     panel.draw(canvas, "time (ms per frame)", if first { "root mean square error (1/255)" } else { "" });
-    for kernel in &Kernel::ALL {
-        let places: Vec<_> = planned().filter(|f| f.kernel == *kernel).map(|f| [f.time.median, f.error.rms]).collect();
-        panel.line(canvas, &places, color_of(*kernel), 1.5);
+    let mut draw = |places: Vec<[f64; 2]>, marker: Marker, color: RGBColor| {
+        panel.line(canvas, &places, color, 1.5);
         for place in places {
-            canvas.marker(panel.place(place[0], place[1]), marker(*kernel), 5.0, color_of(*kernel));
+            canvas.marker(panel.place(place[0], place[1]), marker, 5.0, color);
         }
+    };
+    let place = |f: &Frame| [f.time.median, f.error.rms];
+    let is_grid = |f: &&Frame| matches!(f.samples, Samples::Grid(_));
+    for kernel in Kernel::ALL {
+        let places = planned().filter(is_grid).filter(|f| f.kernel == kernel).map(place).collect();
+        draw(places, marker(kernel), color_of(kernel));
     }
+    draw(planned().filter(|f| !is_grid(f)).map(place).collect(), ADAPTIVE.0, color(ADAPTIVE.1));
 }
 
 /// The frames with one sample a pixel at the widest: the plan's, and those of other methods.
 fn methods(scene: &FramesOf) -> impl Iterator<Item = &Frame> {
-    scene.frames.iter().filter(|f| f.samples == 1 && f.kernel == Kernel::default())
+    scene.frames.iter().filter(|f| f.samples == Samples::Grid(1) && f.kernel == Kernel::default())
 }
 
 /// A line a method: its name, how long a frame takes, and how far its picture is from the plan's.

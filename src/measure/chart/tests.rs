@@ -145,6 +145,9 @@ fn frames_of_built_in_scenes() {
     assert!(column(&rows, "ms_per_frame").iter().all(|&ms| ms > 0.0));
     let (off, rms) = (column(&rows, "pixels_off_percent"), column(&rows, "rms_255"));
     assert!(off.iter().all(|off| (0.0..=100.0).contains(off)) && rms.iter().all(|rms| (0.0..=255.0).contains(rms)));
+    let adaptive = |row: &&Vec<String>| row[3] == "adaptive:5";
+    assert_eq!(rows.iter().filter(adaptive).count(), crate::measure::lab::SCENES.len());
+    assert!(rows.iter().filter(adaptive).all(|row| (4.0..=16.0).contains(&row[4].parse::<f64>().unwrap())));
     // By the plan, what is apart from the plan is nothing.
     let apart = column(&rows, "rms_from_planned_255");
     assert!(rows.iter().skip(1).zip(&apart).all(|(row, &apart)| row[1] != "planned" || apart == 0.0));

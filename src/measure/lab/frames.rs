@@ -6,14 +6,17 @@ use super::image::{Difference, difference};
 use super::{Budget, Timing};
 use crate::geometry::methods::{Choice, Methods, NormalizeMethod, OffsetMethod};
 use crate::geometry::methods::{SphereMethod, TorusMethod, TriangleMethod};
-use crate::render::{Camera, Film, Kernel, render};
+use crate::render::{ALIKE, Camera, Film, Kernel, Samples, render_samples};
 use crate::scene::{self, Description, Scene, compile_with};
 
 /// The built-in scenes that are rendered.
 pub const SCENES: [&str; 3] = ["classic", "cosmos", "primitives"];
 
-/// Samples along a pixel's side.
-const SAMPLES: [u32; 3] = [1, 2, 3];
+/// How many rays a pixel gets by every method.
+const SAMPLES: [Samples; 3] = [Samples::Grid(1), Samples::Grid(2), Samples::Grid(3)];
+/// And by the plan at the widest.
+const MORE: [Samples; 4] =
+    [Samples::Grid(4), Samples::Adaptive(4 * ALIKE), Samples::Adaptive(ALIKE), Samples::Adaptive(1)];
 
 /// One way to render a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +25,10 @@ pub struct Frame {
     pub method: String,
     /// The width.
     pub kernel: Kernel,
-    /// Samples along a pixel's side.
-    pub samples: u32,
+    /// How many rays a pixel gets.
+    pub samples: Samples,
+    /// Rays from the eye a pixel.
+    pub rays: f64,
     /// Milliseconds.
     pub time: Timing,
     /// From the converged picture.
@@ -61,8 +66,9 @@ struct Way {
     method: String,
     scene: Scene,
     kernel: Kernel,
-    samples: u32,
+    samples: Samples,
     film: Film,
+    rays: f64,
     times: Vec<f64>,
 }
 
@@ -70,41 +76,45 @@ fn frames_of(name: &'static str, budget: &Budget, progress: &dyn Fn(f32)) -> Res
     let description = scene::load(name).map_err(|e| e.to_string())?;
     let [width, height] = budget.frame;
     let camera = Camera::new(&description.camera, width as f32 / height as f32);
-    let run = |scene: &Scene, kernel: Kernel, samples: u32, film: &mut Film| {
+    let run = |scene: &Scene, kernel: Kernel, samples: Samples, film: &mut Film| {
         let started = Instant::now();
-        render(scene, &camera, kernel, samples, film, &|_| ());
-        started.elapsed().as_secs_f64() * 1e3
+        let counts = render_samples(scene, &camera, kernel, samples, film, &|_| ());
+        (started.elapsed().as_secs_f64() * 1e3, counts.primary as f64 / (width * height) as f64)
     };
     let compiled = |choices: &[Choice]| compile_with(&description, &choices.into()).map_err(|e| e.to_string());
     let mut converged = Film::new(width, height);
     let planned = compiled(&[])?;
-    run(&planned, Kernel::default(), budget.converged, &mut converged);
+    run(&planned, Kernel::default(), Samples::Grid(budget.converged), &mut converged);
     let mut ways = Vec::new();
     for (method, choice, kernels) in contestants(&description, &planned.plan.methods) {
         for &kernel in kernels {
             let scene = compiled(choice.as_slice())?;
-            ways.extend(SAMPLES.map(|samples| {
-                let (method, scene) = (method.clone(), scene.clone());
-                Way { method, scene, kernel, samples, film: Film::new(width, height), times: Vec::new() }
+            let more = if choice.is_none() && kernel == Kernel::default() { &MORE[..] } else { &[] };
+            ways.extend(SAMPLES.iter().chain(more).map(|&samples| {
+                let (method, scene, film) = (method.clone(), scene.clone(), Film::new(width, height));
+                Way { method, scene, kernel, samples, film, rays: 0.0, times: Vec::new() }
             }));
         }
     }
     for turn in 0..=budget.frame_turns {
         for way in &mut ways {
-            let time = run(&way.scene, way.kernel, way.samples, &mut way.film);
+            let (time, rays) = run(&way.scene, way.kernel, way.samples, &mut way.film);
+            way.rays = rays;
             if turn > 0 {
                 way.times.push(time);
             }
         }
         progress((turn + 1) as f32 / (budget.frame_turns + 1) as f32);
     }
-    let planned: Vec<Film> = ways.iter().take(SAMPLES.len()).map(|way| way.film.clone()).collect();
-    let paired = || ways.iter().zip(planned.iter().cycle());
-    let same = paired().filter(|(way, _)| way.method == PLANNED).all(|(way, planned)| way.film == *planned);
+    let is_planned = |way: &&Way| way.method == PLANNED;
+    let by_plan = |samples| ways.iter().rfind(|way| is_planned(way) && way.samples == samples).unwrap_or(&ways[0]);
+    let paired = || ways.iter().map(|way| (way, &by_plan(way.samples).film));
+    let same = paired().filter(|(way, _)| is_planned(way)).all(|(way, planned)| way.film == *planned);
     let frame = |(way, planned): (&Way, &Film)| Frame {
         method: way.method.clone(),
         kernel: way.kernel,
         samples: way.samples,
+        rays: way.rays,
         time: Timing::of(way.times.clone()),
         error: difference(&way.film, &converged),
         apart: difference(&way.film, planned),
