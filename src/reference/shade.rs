@@ -66,8 +66,10 @@ struct Passage {
     inside: Vec<usize>,
 }
 
-/// The most surfaces that are looked through to find the bodies around a point.
-const MAX_SURFACES: usize = 1000;
+/// The most crossings of a ray with one primitive.
+const MAX_CROSSINGS: usize = 100;
+/// Where the rays go that tell which bodies are around a point.
+const VOTERS: [[f64; 3]; 3] = [[1.0, 3.0, 2.0], [-2.7193, 1.4157, -3.1481], [1.7331, -2.2373, 0.5791]];
 
 impl Tracer {
     /// The linear radiance seen from `origin` along the unit `direction`.
@@ -143,31 +145,47 @@ impl Tracer {
         Passage { from, eta: ior(from.as_ref()) / ior(after.last()), inside: after }
     }
 
-    /// The materials of the bodies around a point: those that a ray from there leaves without having entered them,
-    /// outermost first.
+    /// The materials of the bodies around a point, outermost first. A ray through an edge may count it wrong, and so the
+    /// rays vote.
     fn around(&self, point: DVec3) -> Vec<usize> {
-        let mut left = Vec::new();
         if !self.refracts {
-            return left;
+            return Vec::new();
         }
-        let direction = DVec3::new(1.0, 3.0, 2.0).normalize();
-        let mut entered = Vec::new();
-        let mut origin = point;
-        for _ in 0..MAX_SURFACES {
-            let Some(hit) = self.intersect(origin, direction, f64::INFINITY) else { break };
-            let primitive = &self.primitives[hit.primitive as usize];
-            let place = primitive.project(origin + hit.t * direction);
-            let front = primitive.normal(place).dot(direction) <= 0.0;
-            let scale = place.length().max(primitive.extent());
-            origin = place + Rounding::FINE.lift * scale * direction;
+        let votes = VOTERS.map(|direction| self.left_behind(point, DVec3::from(direction).normalize()));
+        let bodies = |vote: &Vec<usize>| {
+            let mut bodies = vote.clone();
+            bodies.sort_unstable();
+            bodies
+        };
+        let [first, second, third] = &votes;
+        let outvoted = bodies(first) != bodies(second) && bodies(second) == bodies(third);
+        if outvoted { second.clone() } else { first.clone() }
+    }
+
+    /// The materials of the bodies that a ray leaves without having entered them, the last one first. Each primitive is
+    /// followed alone.
+    fn left_behind(&self, point: DVec3, direction: DVec3) -> Vec<usize> {
+        let mut crossings: Vec<(f64, usize, bool)> = Vec::new();
+        for primitive in &self.primitives {
             let material = primitive.material();
             if self.materials[material].transmission <= 0.0 {
                 continue;
             }
-            match (front, entered.iter().rposition(|&m| m == material)) {
-                (true, _) => entered.push(material),
-                (false, Some(at)) => drop(entered.remove(at)),
-                (false, None) => left.insert(0, material),
+            let mut way = 0.0;
+            for _ in 0..MAX_CROSSINGS {
+                let Some(t) = primitive.distance(point + way * direction, direction) else { break };
+                let place = primitive.project(point + (way + t) * direction);
+                crossings.push((way + t, material, primitive.normal(place).dot(direction) > 0.0));
+                way += t + Rounding::FINE.lift * place.length().max(primitive.extent());
+            }
+        }
+        crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (mut entered, mut left) = (Vec::new(), Vec::new());
+        for (_, material, leaves) in crossings {
+            match (leaves, entered.iter().rposition(|&m| m == material)) {
+                (false, _) => entered.push(material),
+                (true, Some(at)) => drop(entered.remove(at)),
+                (true, None) => left.insert(0, material),
             }
         }
         left

@@ -10,8 +10,8 @@ const IOR: std::ops::RangeInclusive<f32> = 0.1..=10.0;
 /// The greatest absorption a world unit.
 const MAX_ABSORPTION: f32 = 1e18;
 
-/// The most materials that transmit, as a ray keeps the bodies it is in by numbers of 16 bits.
-pub const MAX_BODIES: usize = (1 << 16) - 1;
+/// The most materials that transmit, as a ray keeps the bodies it is in by numbers of 16 bits, of which one has another use.
+pub const MAX_BODIES: usize = u16::MAX as usize - 1;
 
 /// The largest Phong exponent: a highlight a thousandth of a radian across.
 const MAX_SHININESS: f32 = 1e6;

@@ -3,10 +3,9 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::Vec3;
-
 use super::in_tree::InTree;
 use super::kinds::Kind;
+use super::media::{Medium, media};
 use super::plan::Structure;
 use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
 use crate::bvh::{Aabb, Bvh};
@@ -104,7 +103,7 @@ macro_rules! scene {
                 let plan = Plan::of(description, &boxes, options);
                 $($(super::$Kind::set_methods(&mut $storage, &plan.methods);)*)*
                 let (media, medium_of) = media(&description.materials);
-                Self {
+                let mut scene = Self {
                     $($($storage,)*)*
                     first,
                     mesh_first: mesh_first(&description.meshes),
@@ -120,7 +119,9 @@ macro_rules! scene {
                     settings: description.settings,
                     plan,
                     options: options.clone(),
-                }
+                };
+                scene.bound_media();
+                scene
             }
         }
     };
@@ -133,15 +134,6 @@ impl Scene {
         check(description)?;
         Ok(Self::of(description, options))
     }
-}
-
-/// The substance of a transparent solid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Medium {
-    /// Index of refraction.
-    pub ior: f32,
-    /// Absorption a world unit, by channel.
-    pub absorption: Vec3,
 }
 
 /// Evaluates an expression for the primitive with an id, whatever its kind:
@@ -210,18 +202,4 @@ fn mesh_first(meshes: &[Mesh]) -> Vec<u32> {
         Some(first)
     };
     meshes.iter().scan(0, begin).collect()
-}
-
-/// The media of transparent materials, and which material makes which ([`Scene::medium_of`]).
-fn media(materials: &[Material]) -> (Vec<Medium>, Vec<u16>) {
-    let mut media = vec![Medium { ior: 1.0, absorption: Vec3::ZERO }];
-    let number = |m: &Material| {
-        if m.transmission <= 0.0 {
-            return 0;
-        }
-        media.push(Medium { ior: m.ior, absorption: m.absorption });
-        (media.len() - 1) as u16
-    };
-    let medium_of = materials.iter().map(number).collect();
-    (media, medium_of)
 }

@@ -9,6 +9,7 @@ mod corners;
 mod description;
 mod in_tree;
 mod kinds;
+mod media;
 mod plan;
 mod primitive;
 #[cfg(feature = "files")]
@@ -20,9 +21,10 @@ mod rules;
 pub use builtin::*;
 pub use check::check;
 pub(crate) use compile::with_primitive;
-pub use compile::{CompileOptions, First, Medium, Scene, compile, compile_with};
+pub use compile::{CompileOptions, First, Scene, compile, compile_with};
 pub use description::*;
 pub use kinds::*;
+pub use media::Medium;
 pub use plan::{Plan, ShadowStart, Structure, Tested};
 pub use primitive::{Primitive, PrimitiveKind};
 #[cfg(feature = "files")]

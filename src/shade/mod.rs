@@ -5,6 +5,7 @@
 //! reflects (Whitted, *An Improved Illumination Model for Shaded Display*, 1980). What a transparent medium reflects and
 //! transmits is in [`crate::scene::Material`]; it casts a full shadow, as in Whitted's paper.
 
+mod around;
 mod interaction;
 mod light;
 mod medium;

@@ -1,6 +1,7 @@
 //! One eye ray and all that follows from it, segment by segment; for drawing.
 
-use super::medium::{MediumStack, Passage, around};
+use super::around::around;
+use super::medium::{Deeper, MediumStack, Passage};
 use super::refract::split;
 use super::spawn::{self, Offsets};
 use super::surface::{shading_normal, surface};
@@ -44,11 +45,12 @@ const MAX_SEGMENTS: usize = 1000;
 /// The segments an eye ray sets off: first the eye ray's, then those of every further ray before those that it sets
 /// off itself. The first thousand are followed; absorption is not taken into account.
 pub fn path(scene: &Scene, origin: Vec3, direction: Vec3) -> Vec<Segment> {
-    let mut tree = Tree { scene, probe: Probe::default(), segments: Vec::new(), waiting: Vec::new() };
+    let mut deeper = Deeper::default();
     let inside = match scene.plan.refracts {
-        true => around(scene, origin, &mut tree.probe),
+        true => around(scene, origin, &mut deeper),
         false => MediumStack::default(),
     };
+    let mut tree = Tree { scene, probe: Probe::default(), deeper, segments: Vec::new(), waiting: Vec::new() };
     tree.waiting.push(Ray { kind: SegmentKind::Primary, origin, direction, inside, weight: 1.0, depth: 1 });
     while let Some(ray) = tree.waiting.pop().filter(|_| tree.segments.len() < MAX_SEGMENTS) {
         tree.follow(&ray);
@@ -70,6 +72,7 @@ struct Ray {
 struct Tree<'a> {
     scene: &'a Scene,
     probe: Probe,
+    deeper: Deeper,
     segments: Vec<Segment>,
     waiting: Vec<Ray>,
 }
@@ -127,7 +130,7 @@ impl Tree<'_> {
     /// Adds the reflected and the refracted ray, of which the first is followed first.
     fn go_on(&mut self, ray: &Ray, at: &Arrival, material: usize, front: bool) {
         let m = &self.scene.materials[material];
-        let passage = Passage::new(self.scene, ray.inside, self.scene.medium_of[material], front);
+        let passage = Passage::new(self.scene, ray.inside, self.scene.medium_of[material], front, &mut self.deeper);
         let parts = [m.reflectance, m.transmission].map(|part| part * ray.weight);
         let direction = Lane3::from(ray.direction);
         let split = split::<f32>(direction, at.normal, Some(at.geometric), passage.eta, parts, m.additive);

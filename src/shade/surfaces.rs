@@ -1,6 +1,6 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
-use super::medium::{MediumStack, Passage};
+use super::medium::{Deeper, MediumStack, Passage};
 use super::spawn::Offsets;
 use super::surface::shading_normal;
 use super::texture;
@@ -112,7 +112,14 @@ impl Surfaces {
     /// Neighbouring rays mostly hit the same primitive, so each primitive in the packet is looked at once, for all
     /// lanes, and selected where it was hit.
     #[inline(always)]
-    pub fn find<L: Lanes, C: Contents>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>) {
+    pub fn find<L: Lanes, C: Contents>(
+        &mut self,
+        scene: &Scene,
+        wave: &Wave,
+        at: usize,
+        hit: &Nearest<L>,
+        deeper: &mut Deeper,
+    ) {
         let direction = Vec3::<L>::load(&wave.rays.direction, at);
         let p = direction.mul_add(hit.t, wave.rays.origins(at));
         let mut ids = [0; MAX_LANES];
@@ -148,7 +155,7 @@ impl Surfaces {
         if C::ALL && scene.plan.refracts {
             (weight * g.transmission).store(&mut self.media.transmission[at..]);
             g.additive.store(&mut self.media.additive[at..]);
-            self.media.pass::<L>(scene, wave, at, hit, !behind);
+            self.media.pass::<L>(scene, wave, at, hit, !behind, deeper);
         }
     }
 
@@ -163,7 +170,15 @@ impl Transmissions {
     /// Finds what lies before and behind the surfaces of packet `at`, and what absorption leaves of the rays up to
     /// there. Rays that pass through the same side of the same primitive from the same media are looked at once.
     #[inline(always)]
-    fn pass<L: Lanes>(&mut self, scene: &Scene, wave: &Wave, at: usize, hit: &Nearest<L>, front: L::Mask) {
+    fn pass<L: Lanes>(
+        &mut self,
+        scene: &Scene,
+        wave: &Wave,
+        at: usize,
+        hit: &Nearest<L>,
+        front: L::Mask,
+        deeper: &mut Deeper,
+    ) {
         let mut ids = [0; MAX_LANES];
         hit.primitive.store_ids(&mut ids);
         let before = &wave.inside[at..at + L::WIDTH];
@@ -175,9 +190,8 @@ impl Transmissions {
             let is_front = front >> lane & 1 == 1;
             let side = if is_front { front } else { !front };
             let same = left & side & hit.primitive.is_id(ids[lane]).bits() & alike(before, before[lane]);
-            let material = with_primitive!(scene, ids[lane], |kind, i| kind.material(i));
-            let medium = scene.medium_of[material as usize];
-            let passage = Passage::new(scene, before[lane], medium, is_front);
+            let medium = scene.medium(ids[lane]);
+            let passage = Passage::new(scene, before[lane], medium, is_front, deeper);
             let lanes = L::Mask::from_bits(same);
             eta = L::splat(passage.eta).select(lanes, eta);
             absorption = Vec3::splat(scene.media[usize::from(passage.from)].absorption).select(lanes, absorption);

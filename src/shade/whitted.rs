@@ -1,8 +1,9 @@
 //! Whitted's algorithm over the waves of a tile: trace, light, and again with the rays that mirrors and transparent
 //! media send on, compacted.
 
+use super::around::around;
 use super::light::Lighting;
-use super::medium::{MediumStack, around};
+use super::medium::{Deeper, MediumStack};
 use super::queue::{Kind, Queue};
 use super::refract::{Split, split};
 use super::surfaces::{Surfaces, absorbed};
@@ -10,7 +11,7 @@ use super::wave::{Leaving, Observer, Stage, Wave};
 use super::{sky, spawn};
 use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3};
 use crate::scene::{MIN_WEIGHT, Scene};
-use crate::trace::{Bounds, Contents, Everything, Intersect, Prefetch, Probe, Scratch, trace, with_contents};
+use crate::trace::{Bounds, Contents, Everything, Intersect, Prefetch, Scratch, trace, with_contents};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +57,8 @@ pub struct Workspace {
     surfaces: Surfaces,
     lighting: Lighting,
     scratch: Scratch,
+    /// What stacks of more than four media stand on.
+    deeper: Deeper,
     /// The eye of the last tile, and the media around it.
     eye: Option<(glam::Vec3, MediumStack)>,
 }
@@ -69,19 +72,27 @@ impl Default for Workspace {
             surfaces: Surfaces::default(),
             lighting: Lighting::default(),
             scratch: Scratch::default(),
+            deeper: Deeper::default(),
             eye: None,
         }
     }
 }
+
+/// As many stacks of media are kept from tile to tile.
+const MOST_STACKS: usize = 1 << 14;
 
 impl Workspace {
     /// Finds the media that the eye rays start in.
     #[inline(never)]
     fn start_inside(&mut self, scene: &Scene) {
         let origin = self.primary.rays.first_origin();
+        let deeper = &mut self.deeper;
+        if deeper.len() > MOST_STACKS {
+            (*deeper, self.eye) = (Deeper::default(), None);
+        }
         let inside = match self.eye {
             Some((eye, inside)) if eye == origin => inside,
-            _ => around(scene, origin, &mut Probe::default()),
+            _ => around(scene, origin, deeper),
         };
         self.eye = Some((origin, inside));
         self.primary.inside = [inside; BATCH];
@@ -103,10 +114,10 @@ pub fn trace_waves<L: Lanes>(scene: &Scene, work: &mut Workspace, observer: &mut
 fn follow<L: Lanes, C: Contents>(scene: &Scene, work: &mut Workspace, observer: &mut impl Observer) -> Counts {
     const { assert!(L::WIDTH <= MAX_LANES, "room for a packet's lanes is as wide as the widest kernel") };
     let mut counts = Counts { primary: work.primary.rays.active() as u64, ..Counts::default() };
-    let Workspace { primary, radiance, queue, surfaces, lighting, scratch, .. } = work;
+    let Workspace { primary, radiance, queue, surfaces, lighting, scratch, deeper, .. } = work;
     *radiance = [[0.0; BATCH]; 3];
     observer.primary(&primary.rays);
-    let mut workshop = Workshop { scene, radiance, queue, surfaces, lighting, scratch };
+    let mut workshop = Workshop { scene, radiance, queue, surfaces, lighting, scratch, deeper };
     let (mut queued, mut depth) = (None::<Box<Wave>>, 1);
     loop {
         counts.shadow += workshop.shade::<L, C>(queued.as_deref().unwrap_or(primary), depth, observer);
@@ -136,6 +147,7 @@ struct Workshop<'a> {
     surfaces: &'a mut Surfaces,
     lighting: &'a mut Lighting,
     scratch: &'a mut Scratch,
+    deeper: &'a mut Deeper,
 }
 
 impl Workshop<'_> {
@@ -160,7 +172,7 @@ impl Workshop<'_> {
     /// Traces a wave; finds the surfaces of all hits and gives the sky to all misses. Whether there is any hit.
     #[inline(never)]
     fn arrive<L: Lanes, C: Contents>(&mut self, wave: &Wave, depth: u32) -> bool {
-        let Self { scene, radiance, surfaces, scratch, .. } = self;
+        let Self { scene, radiance, surfaces, scratch, deeper, .. } = self;
         let mut any = false;
         surfaces.start();
         trace::<Intersect, L, C>(
@@ -173,7 +185,7 @@ impl Workshop<'_> {
             |at, active, hit| {
                 if hit.found.any() {
                     any = true;
-                    surfaces.find::<L, C>(scene, wave, at, hit);
+                    surfaces.find::<L, C>(scene, wave, at, hit, deeper);
                 }
                 let missed = active & !hit.found;
                 if missed.any() {

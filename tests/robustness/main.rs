@@ -1,5 +1,6 @@
 //! What breaks ray tracers: self-shadowing, leaks, eyes and lights in awkward places, depth, odd sizes.
 
+mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
 mod depth;
