@@ -18,7 +18,7 @@ use super::face;
 pub use super::face::Aim;
 use super::frame::along;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
 use crate::math::{LaneMask, Lanes, Vec3, map2, map3};
 use glam::DMat3;
 
@@ -245,6 +245,10 @@ impl Primitives for Cuboids {
         let sign = face::signs(q);
         let normal = (x * sign.x).select(on_x, (y * sign.y).select(on_y, z * sign.z));
         Surface { point, normal, reach }
+    }
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, _: usize, surface: &Surface<L>) -> Option<Footing<L>> {
+        Some(Footing { point: surface.point, curvature: 0.0 })
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {

@@ -18,7 +18,7 @@
 //! Edges belong to the disc, those of the hole too. A ray in its plane misses it; so does one that starts on it.
 
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, axial, columns, flat};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Never, Number, Primitives, Surface, axial, columns, flat};
 use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 use glam::DVec3;
 
@@ -176,6 +176,10 @@ impl Primitives for Discs {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         flat::surface(self.axes[i][2], self.center(i), 2.0 * self.radius[i], point)
+    }
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Option<Footing<L>> {
+        (self.inner[i] == 0.0).then(|| flat::footing(self.center(i), self.radius[i], surface))
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {

@@ -1,6 +1,6 @@
 //! The geometry that triangles, quads and discs share: a plane by its unit normal, and coordinates along two edges.
 
-use super::{Surface, frame};
+use super::{Footing, Surface, frame};
 use crate::math::{Lanes, Vec3, map2, map3};
 
 /// The surface at `point` of the plane through `corner` with this unit normal.
@@ -9,6 +9,16 @@ pub(super) fn surface<L: Lanes>(unit: glam::Vec3, corner: glam::Vec3, reach: f32
     let normal = Vec3::splat(unit);
     let height = normal.dot(point - Vec3::splat(corner));
     Surface { point: normal.mul_add(-height, point), normal, reach }
+}
+
+/// Where a ray goes on through a flat primitive that holds a circle of radius `inner` about `middle`: nearer to there by so
+/// much that rounding does not take the point across an edge, where another primitive of the same body may begin.
+#[inline(always)]
+pub(super) fn footing<L: Lanes>(middle: glam::Vec3, inner: f32, surface: &Surface<L>) -> Footing<L> {
+    let share = surface.point.max_abs() * L::splat((4.0 * f32::EPSILON / inner).min(f32::MAX));
+    let share = share.min(L::splat(0.5));
+    let point = (Vec3::splat(middle) - surface.point).mul_add(share, surface.point);
+    Footing { point, curvature: 0.0 }
 }
 
 /// The a and b of a point corner + a u + b v, by areas as a part of that of u × v, whose unit vector `unit` is.

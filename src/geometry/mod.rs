@@ -68,6 +68,15 @@ pub struct Surface<L> {
     pub reach: f32,
 }
 
+/// Where a ray goes on that passes through a surface, if the rounding along the normal is all that matters there.
+#[derive(Clone, Copy, Debug)]
+pub struct Footing<L> {
+    /// The hit point, off edges by more than its rounding.
+    pub point: Vec3<L>,
+    /// What the rounding along the surface adds to that along the normal: half of its square times this.
+    pub curvature: f32,
+}
+
 /// A number of a primitive: one, lanes, or a column of a block.
 pub trait Number: Copy + Send + Sync {}
 
@@ -195,6 +204,12 @@ pub trait Primitives: Sized {
 
     /// The surface of primitive `i` at `point`, which lies near it.
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L>;
+    /// Where a ray goes on that passes through; `None` where the rounding along the surface matters, as next to a cone's
+    /// apex.
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, _i: usize, _surface: &Surface<L>) -> Option<Footing<L>> {
+        None
+    }
     /// Texture coordinates at a point of the surface.
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2];
     /// The coordinates that a checkerboard is laid in; 0 for the third where it is flat.

@@ -7,7 +7,7 @@
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
 use super::numbers::numbers;
-use super::{Cull, LaneHits, Never, Number, Primitives, Surface, columns, frame};
+use super::{Cull, Footing, LaneHits, Never, Number, Primitives, Surface, columns, frame};
 use crate::math::{LaneMask, Lanes, Vec3, map2};
 
 /// Planes, column by column.
@@ -124,6 +124,10 @@ impl Primitives for Planes {
         let normal = Vec3::splat(self.unit[i].normal);
         let height = normal.dot(point) + L::splat(self.unit[i].offset);
         Surface { point: normal.mul_add(-height, point), normal, reach: 0.0 }
+    }
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, _: usize, surface: &Surface<L>) -> Option<Footing<L>> {
+        Some(Footing { point: surface.point, curvature: 0.0 })
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {

@@ -5,7 +5,7 @@
 //! misses it.
 
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, columns, flat};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Never, Number, Primitives, Surface, columns, flat};
 use crate::math::{LaneMask, Lanes, Vec3, map2, map3};
 
 /// Quads, column by column.
@@ -152,6 +152,13 @@ impl Primitives for Quads {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         flat::surface(self.unit[i], columns::at(&self.corner, i), self.reach[i], point)
+    }
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Option<Footing<L>> {
+        let [corner, u, v] = self.corner_and_edges(i);
+        let [long, wide] = [u, v].map(|edge| edge.as_dvec3());
+        let inner = 0.5 * long.cross(wide).length() / long.length().max(wide.length());
+        Some(flat::footing(corner + 0.5 * (u + v), inner as f32, surface))
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {

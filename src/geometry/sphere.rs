@@ -17,7 +17,7 @@
 
 use super::methods::SphereMethod;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, Variant};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Number, Primitives, Sides, Surface, Test, Variant};
 use crate::math::{LaneMask, Lanes, MAX_LANES, Vec3, angle};
 
 /// Spheres, column by column.
@@ -160,6 +160,10 @@ impl Primitives for Spheres {
         let radius = self.radius(i);
         let normal = (point - center).normalize_by(self.steps);
         Surface { point: normal.mul_add(L::splat(radius), center), normal, reach: radius }
+    }
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Option<Footing<L>> {
+        Some(Footing { point: surface.point, curvature: 1.0 / self.radius(i) })
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, _i: usize, surface: &Surface<L>) -> [L; 2] {

@@ -24,7 +24,7 @@
 use super::face::{self, between};
 use super::methods::TriangleMethod;
 use super::numbers::numbers;
-use super::{Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
+use super::{Bounded, Cull, Footing, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 use wide::f32x8;
 
@@ -301,6 +301,15 @@ impl Primitives for Triangles {
     #[inline(always)]
     fn surface<L: Lanes>(&self, i: usize, point: Vec3<L>) -> Surface<L> {
         flat::surface(self.unit[i], self.corners(i)[0], self.reach[i], point)
+    }
+    #[inline(always)]
+    fn footing<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Option<Footing<L>> {
+        let [a, b, c] = self.corners(i).map(|corner| corner.as_dvec3());
+        let [u, v, w] = [c - b, a - c, b - a];
+        let edges = [u.length(), v.length(), w.length()];
+        let around: f64 = edges.iter().sum();
+        let middle = (a * edges[0] + b * edges[1] + c * edges[2]) / around;
+        Some(flat::footing(middle.as_vec3(), (u.cross(v).length() / around) as f32, surface))
     }
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {

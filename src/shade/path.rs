@@ -4,7 +4,7 @@ use super::around::around;
 use super::medium::{Deeper, MediumStack, Passage};
 use super::refract::split;
 use super::spawn::{self, Offsets};
-use super::surface::{shading_normal, surface};
+use super::surface::{shading_normal, start, surface};
 use crate::math::Vec3 as Lane3;
 use crate::scene::{MIN_WEIGHT, Scene, ShadowStart};
 use crate::trace::Probe;
@@ -96,11 +96,13 @@ impl Tree<'_> {
         self.segments.push(Segment { kind, from, to: Some(s.point.into()), direction });
         let front = Vec3::from(s.normal).dot(direction) <= 0.0;
         let facing = |n: Lane3<f32>| if front { n } else { -n };
+        let transparent = self.scene.medium_of[material as usize] != 0;
+        let (point, coordinate) = start(self.scene, hit.primitive, &s, transparent);
         let arrival = Arrival {
-            point: s.point,
+            point,
             normal: facing(shading_normal(self.scene, hit.primitive, &s)),
             geometric: facing(s.normal),
-            lift: Offsets::of(&self.scene.plan.methods).lift::<f32>(s.point, s.reach),
+            lift: Offsets::of(&self.scene.plan.methods).lift_by::<f32>(coordinate, s.reach),
         };
         self.shadows(&arrival);
         if ray.depth < self.scene.plan.waves {

@@ -13,10 +13,16 @@
 //! So the lift is ε (8 s + 9 M), plus 12 ε D for a shadow ray. A ray that starts or ends so far from the surface,
 //! along the normal on the side it belongs to, does not meet it by mistake, and needs no `t_min` and no shortened
 //! `t_max`; only a ray that ends at a light itself is shortened, for the surface the light may lie on.
-
+//!
+//! Where a body is transparent, a lift that is larger than the body is thick, or than the gap to the next one, loses a
+//! surface. There M is only as much of the coordinates as counts along the normal n, N = Σ |nᵢ pᵢ|: the parts of M above
+//! are roundings of single coordinates. Along a surface of curvature κ, √3 ε M are off it by 1.5 ε² M² κ. Rays are kept off
+//! edges, across which the rounding along a surface would take them ([`crate::geometry::Footing`]). Cylinders, cones, tori
+//! and fractals keep M.
 //!
 //! [`Offsets`] has the fixed epsilons, too, to be compared with.
 
+use crate::geometry::Footing;
 use crate::geometry::methods::{Methods, OffsetMethod};
 use crate::math::{Lanes, Vec3, inverse_root};
 
@@ -35,6 +41,8 @@ pub struct Offsets {
     coordinate: f32,
     /// Part of a shadow ray's length.
     length: f32,
+    /// Whether of a coordinate's rounding only what is along the normal matters, where that is known.
+    along: bool,
     /// World units.
     fixed: f32,
     /// See [`Vec3::normalize_by`].
@@ -44,10 +52,18 @@ pub struct Offsets {
 impl Offsets {
     /// By a scene's methods.
     pub fn of(methods: &Methods) -> Self {
-        let none = Self { reach: 0.0, coordinate: 0.0, length: 0.0, fixed: 0.0, steps: methods.normalize.steps() };
+        let none = Self {
+            reach: 0.0,
+            coordinate: 0.0,
+            length: 0.0,
+            along: false,
+            fixed: 0.0,
+            steps: methods.normalize.steps(),
+        };
         match methods.offset {
             OffsetMethod::Derived => {
-                Self { reach: 8.0 * ROUNDOFF, coordinate: 9.0 * ROUNDOFF, length: 12.0 * ROUNDOFF, ..none }
+                let [reach, coordinate, length] = [8.0 * ROUNDOFF, 9.0 * ROUNDOFF, 12.0 * ROUNDOFF];
+                Self { reach, coordinate, length, along: true, ..none }
             }
             OffsetMethod::None => none,
             OffsetMethod::Fixed => Self { fixed: EPSILON, ..none },
@@ -58,13 +74,35 @@ impl Offsets {
     /// So many world units.
     #[cfg(feature = "lab")]
     pub fn fixed(epsilon: f32) -> Self {
-        Self { reach: 0.0, coordinate: 0.0, length: 0.0, fixed: epsilon, steps: None }
+        Self { reach: 0.0, coordinate: 0.0, length: 0.0, along: false, fixed: epsilon, steps: None }
     }
 
     /// How far from the surface a ray starts that leaves it at `point`.
     #[inline(always)]
     pub fn lift<L: Lanes>(&self, point: Vec3<L>, reach: L) -> L {
-        point.max_abs().mul_add(L::splat(self.coordinate), reach * L::splat(self.reach)) + L::splat(self.fixed)
+        self.lift_by(point.max_abs(), reach)
+    }
+
+    /// [`Offsets::lift`] by what takes the largest coordinate's place: that, or [`Offsets::along`].
+    #[inline(always)]
+    pub fn lift_by<L: Lanes>(&self, coordinate: L, reach: L) -> L {
+        coordinate.mul_add(L::splat(self.coordinate), reach * L::splat(self.reach)) + L::splat(self.fixed)
+    }
+
+    /// What takes the largest coordinate's place on the surface of a transparent body: Σ |nᵢ pᵢ|, and what the rounding
+    /// along the surface adds where that is curved. So a body far from the origin may be as thin as its own place allows.
+    #[inline(always)]
+    pub fn along<L: Lanes>(&self, footing: &Footing<L>, normal: Vec3<L>) -> L {
+        let most = footing.point.max_abs();
+        if !self.along {
+            return most;
+        }
+        let n_p = |n: L, p: L| (n * p).abs();
+        let (n, p) = (normal, footing.point);
+        let along = n_p(n.x, p.x) + n_p(n.y, p.y) + n_p(n.z, p.z);
+        let curved = most * most * L::splat((ROUNDOFF * footing.curvature).min(f32::MAX));
+        // No more than everywhere else; NaN is passed over.
+        (along + curved).min(most)
     }
 }
 

@@ -1,6 +1,7 @@
 //! One primitive's surface near a point, and the normals there.
 
-use crate::geometry::{Primitives, Surface};
+use super::spawn::Offsets;
+use crate::geometry::{Footing, Primitives, Surface};
 use crate::math::{Lanes, Vec3};
 use crate::scene::{Scene, with_primitive};
 
@@ -12,6 +13,22 @@ pub fn shading_normal<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) ->
     } else {
         surface.normal
     }
+}
+
+/// Where rays start that leave primitive `id`, and what stands for the largest coordinate in their lift.
+#[inline(always)]
+pub fn start<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>, transparent: bool) -> (Vec3<L>, L) {
+    let footing = if transparent { footing(scene, id, surface) } else { None };
+    match footing {
+        None => (surface.point, surface.point.max_abs()),
+        Some(footing) => (footing.point, Offsets::of(&scene.plan.methods).along(&footing, surface.normal)),
+    }
+}
+
+/// [`Primitives::footing`] of primitive `id`.
+#[inline(never)]
+fn footing<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Option<Footing<L>> {
+    with_primitive!(scene, id, |kind, i| kind.footing(i, surface))
 }
 
 /// Primitive `id`'s surface near the points `p`, and its material.

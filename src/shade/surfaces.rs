@@ -2,7 +2,7 @@
 
 use super::medium::{Deeper, MediumStack, Passage};
 use super::spawn::Offsets;
-use super::surface::shading_normal;
+use super::surface::{shading_normal, start};
 use super::texture;
 use super::wave::Wave;
 use crate::geometry::{Primitives, Surface};
@@ -87,6 +87,8 @@ struct Gathered<L> {
     point: Vec3<L>,
     normal: Vec3<L>,
     reach: L,
+    /// What stands for the largest coordinate in the lift.
+    coordinate: L,
     color: Vec3<L>,
     own: L,
     mirror: L,
@@ -141,7 +143,11 @@ impl Surfaces {
         }
         g.point.store(&mut self.point, at);
         normal.store(&mut self.normal, at);
-        let lift = Offsets::of(&scene.plan.methods).lift(g.point, g.reach);
+        let offsets = Offsets::of(&scene.plan.methods);
+        let lift = match C::ALL && scene.plan.refracts {
+            false => offsets.lift(g.point, g.reach),
+            true => offsets.lift_by(g.coordinate, g.reach),
+        };
         lift.select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
         let own = weight * if C::ALL { g.own } else { L::splat(1.0) - g.mirror };
@@ -229,6 +235,7 @@ impl<L: Lanes> Gathered<L> {
             point: self.point.select(mask, other.point),
             normal: self.normal.select(mask, other.normal),
             reach: self.reach.select(mask, other.reach),
+            coordinate: self.coordinate.select(mask, other.coordinate),
             color: self.color.select(mask, other.color),
             own: self.own.select(mask, other.own),
             mirror: self.mirror.select(mask, other.mirror),
@@ -247,8 +254,13 @@ impl<L: Lanes> Gathered<L> {
 fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
     let Painted { surface, material: m, color } = painted::<L, C>(scene, id, p);
     let smooth = if C::ALL && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
+    let (point, coordinate) = match C::ALL && scene.plan.refracts {
+        false => (surface.point, L::zero()),
+        true => start(scene, id, &surface, m.transmission > 0.0),
+    };
     Gathered {
-        point: surface.point,
+        point,
+        coordinate,
         normal: surface.normal,
         reach: L::splat(surface.reach),
         color,

@@ -14,6 +14,7 @@ mod sides;
 mod sizes;
 mod symmetry;
 mod textbook;
+mod thin;
 mod watertight;
 
 use common::Pcg;
