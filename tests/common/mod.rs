@@ -43,6 +43,16 @@ pub fn mesh(corners: &[[Vec3; 3]]) -> Mesh {
     Mesh { positions: corners.as_flattened().to_vec(), triangles, ..Mesh::default() }
 }
 
+/// A scene as light meets it: with all its surfaces there from both sides. `None` where they are anyway.
+pub fn lit(description: &Description) -> Option<Description> {
+    let mut scene = description.clone();
+    scene.spheres.iter_mut().for_each(|it| it.sides = Sides::Both);
+    scene.meshes.iter_mut().for_each(|it| it.sides = Sides::Both);
+    scene.cylinders.iter_mut().for_each(|it| it.sides = Sides::Both);
+    scene.cones.iter_mut().for_each(|it| it.sides = Sides::Both);
+    (scene != *description).then_some(scene)
+}
+
 /// A light of power 1 in every channel.
 pub fn light(position: Vec3) -> Light {
     Light { position, power: Vec3::ONE }
