@@ -145,6 +145,16 @@ impl Tracer {
         self.primitives.get(id as usize)?.distance(origin, direction)
     }
 
+    /// The first distance above 0 at which a primitive stops light, from whichever side; `None` for unknown ids.
+    pub fn stop(&self, id: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.primitives.get(id as usize)?.stops(origin, direction)
+    }
+
+    /// How many primitives there are.
+    pub fn primitives(&self) -> usize {
+        self.primitives.len()
+    }
+
     /// A primitive's own size: a sphere's radius, a triangle's longest edge, 0 for planes and unknown ids.
     pub fn extent(&self, id: u32) -> f64 {
         self.primitives.get(id as usize).map_or(0.0, |p| p.extent())
