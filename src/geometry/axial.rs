@@ -19,6 +19,10 @@ impl Variant for Hull {
     fn code(self) -> u8 {
         2 * self.sides.code() + u8::from(self.caps)
     }
+    #[inline(always)]
+    fn both_sides(self) -> Self {
+        Self { sides: Sides::Both, ..self }
+    }
 }
 
 /// The unit axes T, B and A of a body from `base` to `apex` ([`super::frame`], in f64), and its length.

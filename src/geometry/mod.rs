@@ -44,7 +44,8 @@ use crate::math::{Lanes, Vec3};
 /// The nearest distance inside the interval, where the mask is true; `None` when no lane has one.
 pub type LaneHits<L> = Option<(L, <L as Lanes>::Mask)>;
 
-/// Which side of a surface is there. A ray that comes from the other passes through.
+/// Which side of a surface is there. A ray that looks for the nearest hit and comes from the other passes through; light
+/// is stopped by both ([`crate::trace::occluded()`]), so that a shadow is the same whichever way its ray runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sides {
     /// Seen from both sides.
@@ -87,6 +88,11 @@ impl<T: Copy + Send + Sync> Number for T {}
 pub trait Variant: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync {
     /// A number below 32, another for each.
     fn code(self) -> u8;
+    /// The same with all of its sides there.
+    #[inline(always)]
+    fn both_sides(self) -> Self {
+        self
+    }
 }
 
 /// None.
@@ -99,6 +105,10 @@ impl Variant for () {
 impl Variant for Sides {
     fn code(self) -> u8 {
         self as u8
+    }
+    #[inline(always)]
+    fn both_sides(self) -> Self {
+        Self::Both
     }
 }
 

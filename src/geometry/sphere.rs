@@ -198,6 +198,13 @@ impl Variant for Roots {
             Self::Quadratic => 3,
         }
     }
+    #[inline(always)]
+    fn both_sides(self) -> Self {
+        match self {
+            Self::Stable(_) => Self::Stable(Sides::Both),
+            Self::Quadratic => self,
+        }
+    }
 }
 
 /// The methods that no plan chooses.

@@ -1,20 +1,22 @@
 //! `raypacket bench`: rays a second, by query and kernel, with a check of the answers in the same run.
 
+use std::cell::LazyCell;
 use std::fmt;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use rayon::prelude::*;
 use serde::Serialize;
 
+use super::answers::Answers;
 use super::rays::{self, RayFileError};
 use super::stamp::Stamp;
 use super::streams::Streams;
 use super::turns::{Times, noise, take_turns};
-use crate::math::{Blocked, HitBatch, Lanes, NONE, RayBatch, isa, slower_than_cpu};
-use crate::render::{Camera, Kernel, render_display, with_lanes};
+use super::verify::{sample, verify_compiled};
+use crate::math::{RayBatch, isa, slower_than_cpu};
+use crate::reference::Tracer;
+use crate::render::{Camera, Kernel, render_display};
 use crate::scene::{Description, Scene};
-use crate::trace::{Scratch, intersect_stream, occluded_stream};
 
 /// Rays traced between two looks at the clock, at the least.
 const MIN_RAYS: u64 = 500_000;
@@ -91,7 +93,8 @@ pub struct Report {
     pub stamp: Stamp,
     /// The methods by which primitives are tested and rays moved off surfaces ([`crate::geometry::methods`]).
     pub methods: String,
-    /// Whether the answers agreed: all kernels with each other to the bit, and a smaller picture with the reference.
+    /// Whether the answers agreed: all kernels with each other to the bit, and a sample of the rays and a smaller picture
+    /// with the reference.
     pub valid: bool,
     /// The tree; it is not part of the times below.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,12 +113,28 @@ pub struct Report {
 /// # Errors
 /// [`RayFileError`] when the ray file is not sound.
 pub fn run(description: &Description, scene: &Scene, options: &Options) -> Result<Report, RayFileError> {
+    run_spoiled(description, scene, options, &|_, _| ())
+}
+
+/// [`run`], but that `spoil` sees every kernel's answers before they are judged: so a test can plant a fault.
+fn run_spoiled(
+    description: &Description,
+    scene: &Scene,
+    options: &Options,
+    spoil: &dyn Fn(Kernel, &mut Answers),
+) -> Result<Report, RayFileError> {
     let mut results = Vec::new();
-    let mut same = true;
+    let mut agree = true;
+    // Made when it is needed, as it takes memory.
+    let tracer = LazyCell::new(|| Tracer::new(description));
     let mut measure = |query: String, shadow: bool, batches: &[RayBatch]| {
-        let (measured, agree) = time_query(scene, &query, shadow, batches, options.budget);
+        let (measured, mut answers) = time_query(scene, &query, shadow, batches, options.budget);
         results.extend(measured);
-        same &= agree;
+        Kernel::ALL.iter().zip(&mut answers).for_each(|(&kernel, answers)| spoil(kernel, answers));
+        agree &= answers.windows(2).all(|pair| pair[0] == pair[1]);
+        if let Some(answers) = answers.first() {
+            agree &= sample::agrees(&tracer, batches, |batch, ray| answers.of(batch, ray));
+        }
     };
     if let Some(path) = &options.rays {
         let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
@@ -138,7 +157,7 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
         isa: isa(),
         stamp: Stamp::now(),
         methods: scene.plan.methods.to_string(),
-        valid: same && agrees_with_reference(description, scene),
+        valid: agree && agrees_with_reference(description, scene),
         build: Build::of(scene),
         results,
     })
@@ -148,33 +167,32 @@ pub fn run(description: &Description, scene: &Scene, options: &Options) -> Resul
 pub(super) fn agrees_with_reference(description: &Description, scene: &Scene) -> bool {
     let affordable = 200_000_000 / (description.primitives() + 20);
     let height = ((affordable / 2) as f64).sqrt().clamp(8.0, 128.0) as usize;
-    let options = scene.plan.methods.choices().as_slice().into();
-    super::verify::verify_with(description, &options, &Kernel::ALL, 2 * height, height).pass
+    verify_compiled(description, scene, &Kernel::ALL, 2 * height, height).pass
 }
 
-/// Times one query at every kernel; also whether all kernels gave the same bits.
+/// Times one query at every kernel; also the answers, by kernel. Both are empty where there is no ray.
 fn time_query(
     scene: &Scene,
     query: &str,
     shadow: bool,
     batches: &[RayBatch],
     budget: Duration,
-) -> (Vec<Measured>, bool) {
+) -> (Vec<Measured>, Vec<Answers>) {
     let active: u64 = batches.iter().map(|b| b.active() as u64).sum();
     if active == 0 && query != "primary" && !query.starts_with("rays:") {
-        return (Vec::new(), true);
+        return (Vec::new(), Vec::new());
     }
     let mut answers: Vec<Answers> = Kernel::ALL.iter().map(|_| Answers::new(shadow, batches.len())).collect();
     // A short set is traced over and over, so that the clock is not what is measured.
     let all: u64 = batches.iter().map(|b| b.len as u64).sum();
     let passes = (MIN_RAYS / all.max(1)).max(1);
     let times = by_kernel(budget, |kernel| answers[kernel as usize].fill(scene, kernel, batches, passes));
-    let same = answers.windows(2).all(|pair| pair[0] == pair[1]);
     let measured = Kernel::ALL.iter().zip(times).zip(&answers).map(|((kernel, times), answers)| {
         let (hits, sum_t) = answers.sum(batches);
         measured(query, *kernel, active, hits, sum_t, times.iter().map(|t| t / passes as f64).collect())
     });
-    (measured.collect(), same)
+    let measured = measured.collect();
+    (measured, answers)
 }
 
 /// Times whole frames at every kernel.
@@ -198,73 +216,6 @@ fn measured(query: &str, kernel: Kernel, rays: u64, hits: u64, sum_t: f64, times
     let Times { median, best, spread, runs } = Times::of(times);
     let [mrays_median, mrays_best] = [median, best].map(|seconds| rays as f64 / seconds * 1e-6);
     Measured { query: query.into(), kernel: kernel.name(), rays, hits, sum_t, mrays_median, mrays_best, runs, spread }
-}
-
-/// The answers to a set of batches.
-#[derive(Debug, PartialEq)]
-enum Answers {
-    Nearest(Vec<HitBatch>),
-    Any(Vec<Blocked>),
-}
-
-impl Answers {
-    fn new(shadow: bool, batches: usize) -> Self {
-        match shadow {
-            true => Self::Any(vec![Blocked::default(); batches]),
-            false => Self::Nearest(vec![HitBatch::default(); batches]),
-        }
-    }
-
-    /// Answers all batches `passes` times over.
-    fn fill(&mut self, scene: &Scene, kernel: Kernel, batches: &[RayBatch], passes: u64) {
-        with_lanes!(kernel, fill(self, scene, batches, passes));
-    }
-
-    /// The number of hits and the sum of their distances.
-    fn sum(&self, batches: &[RayBatch]) -> (u64, f64) {
-        match self {
-            Self::Any(blocked) => (blocked.iter().map(|b| b.count() as u64).sum(), 0.0),
-            Self::Nearest(hits) => hits.iter().zip(batches).fold((0, 0.0), |sum, (hits, rays)| {
-                (0..rays.len)
-                    .filter(|&i| rays.t_max[i] >= 0.0 && hits.primitive[i] != NONE)
-                    .fold(sum, |(n, t), i| (n + 1, t + f64::from(hits.t[i])))
-            }),
-        }
-    }
-}
-
-fn fill<L: Lanes>(answers: &mut Answers, scene: &Scene, batches: &[RayBatch], passes: u64) {
-    match answers {
-        Answers::Nearest(hits) => each(batches, hits, passes, |rays, hits, scratch| {
-            intersect_stream::<L>(scene, rays, hits, scratch);
-        }),
-        Answers::Any(blocked) => each(batches, blocked, passes, |rays, blocked, scratch| {
-            occluded_stream::<L>(scene, rays, blocked, scratch);
-        }),
-    }
-}
-
-/// Puts all batches through the query `passes` times, in parallel where the pool has more than one thread. All come by
-/// before any comes again: a thread that met the same few over and over would foretell every branch.
-fn each<A: Send>(
-    batches: &[RayBatch],
-    answers: &mut [A],
-    passes: u64,
-    query: impl Fn(&[RayBatch], &mut [A], &mut Scratch) + Sync,
-) {
-    match rayon::current_num_threads() {
-        1 => {
-            let mut scratch = Scratch::default();
-            (0..passes).for_each(|_| query(batches, answers, &mut scratch));
-        }
-        threads => {
-            let size = batches.len().div_ceil(8 * threads).max(1);
-            for _ in 0..passes {
-                let shares = batches.par_chunks(size).zip(answers.par_chunks_mut(size));
-                shares.for_each_init(Scratch::default, |scratch, (batches, answers)| query(batches, answers, scratch));
-            }
-        }
-    }
 }
 
 impl fmt::Display for Report {
@@ -296,3 +247,7 @@ impl fmt::Display for Report {
         Ok(())
     }
 }
+
+#[cfg(test)]
+#[path = "bench_tests.rs"]
+mod tests;

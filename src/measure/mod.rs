@@ -2,6 +2,7 @@
 //! that methods are judged by, [`lab`], which judges them, and [`chart`], which draws it.
 
 pub mod against;
+mod answers;
 pub mod bench;
 pub mod cases;
 pub mod chart;

@@ -9,7 +9,7 @@
 //! stated error bound. An answer differs when
 //! - the hit is of another primitive,
 //! - the hit is of the same primitive, but t is off by more than a relative k·2^-24,
-//! - the pixel is off by more than 1/255 in a channel, or is not finite.
+//! - the pixel is off by more than 1/255 in a channel, is not a number, or is infinite where the reference's is below 10³².
 //!
 //! # The error bound
 //!
@@ -37,6 +37,7 @@ use serde::Serialize;
 
 mod bound;
 mod compare;
+pub(super) mod sample;
 mod table;
 mod truth;
 
@@ -108,11 +109,22 @@ pub fn verify_with(
     height: usize,
 ) -> Report {
     let compiled = scene::compile_with(scene, options).expect("a sound scene");
-    let camera = render::Camera::new(&scene.camera, width as f32 / height as f32);
+    verify_compiled(scene, &compiled, kernels, width, height)
+}
+
+/// Compares the packet tracer with the reference as [`verify`] does, by what [`scene::compile`] made of the description.
+pub fn verify_compiled(
+    description: &Description,
+    scene: &scene::Scene,
+    kernels: &[Kernel],
+    width: usize,
+    height: usize,
+) -> Report {
+    let camera = render::Camera::new(&description.camera, width as f32 / height as f32);
     let traced: Vec<_> =
-        kernels.iter().map(|&kernel| (kernel, Traced::new(&compiled, &camera, kernel, width, height))).collect();
+        kernels.iter().map(|&kernel| (kernel, Traced::new(scene, &camera, kernel, width, height))).collect();
     let answers: Vec<_> = traced.iter().map(|(kernel, traced)| (*kernel, traced.answers())).collect();
-    judge(&Truth::new(scene, width, height), &answers)
+    judge(&Truth::new(description, width, height), &answers)
 }
 
 /// The report on answers that are there already; what [`verify`] does after tracing.
@@ -130,10 +142,12 @@ pub fn judge(truth: &Truth, answers: &[(Kernel, Answers<'_>)]) -> Report {
     Report { scene: truth.name.clone(), size: truth.size, kernels, identical, pass }
 }
 
-/// A linear colour as a display shows it: the sRGB curve, clamped to 0..1. Numbers that are not finite become NaN.
+/// A linear colour as a display shows it: the sRGB curve, clamped to 0..1. NaN stays, and −∞ becomes NaN. From 10²⁸ on it
+/// goes on to 2, which stands for 10³² and all beyond: there an `f32` may have overflowed on the way, and ∞ is right.
 fn displayed(linear: DVec3) -> DVec3 {
     linear.map(|channel| match channel {
-        c if !c.is_finite() => f64::NAN,
+        c if c.is_nan() || c == f64::NEG_INFINITY => f64::NAN,
+        c if c > 1e28 => 1.0 + ((c.log10() - 28.0) / 4.0).min(1.0),
         c if c <= 0.003_130_8 => 12.92 * c.max(0.0),
         c => 1.055 * c.min(1.0).powf(1.0 / 2.4) - 0.055,
     })

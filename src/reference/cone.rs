@@ -109,18 +109,10 @@ impl Cone {
         let this_side = r0 + self.slope() * q.z >= 0.0;
         this_side && (r0..=r1).contains(&q.truncate().length())
     }
-}
 
-impl Primitives for scene::Cone {
-    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
-        to.push(Box::new(Cone::new(self)));
-    }
-}
-
-impl Primitive for Cone {
     /// The nearest of: the side's roots between the ends, the ends' planes within their radii. From outside the
     /// direction runs against the outward normal.
-    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+    fn meets(&self, sides: Sides, origin: DVec3, direction: DVec3) -> Option<f64> {
         let (o, d) = (self.along(origin - self.narrow), self.along(direction));
         let side = self.roots(o, d).into_iter().map(|t| (t, o + t * d)).filter(|(_, q)| self.between_ends(*q));
         // The gradient of x² + y² − (r + m z)².
@@ -130,13 +122,29 @@ impl Primitive for Cone {
         let ends = ends.map(|(height, from_outside, radius)| (height / d.z, from_outside, radius));
         let within = |t: f64, radius: f64| d.z != 0.0 && (o + t * d).truncate().length() <= radius;
         let ends = ends.into_iter().filter(|(t, _, radius)| self.caps && within(*t, *radius));
-        let there = |from_outside: bool| match self.sides {
+        let there = |from_outside: bool| match sides {
             Sides::Both => true,
             Sides::Front => from_outside,
             Sides::Back => !from_outside,
         };
         let ends = ends.map(|(t, from_outside, _)| (t, from_outside));
         side.chain(ends).filter(|(t, from_outside)| *t > 0.0 && there(*from_outside)).map(|(t, _)| t).reduce(f64::min)
+    }
+}
+
+impl Primitives for scene::Cone {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Cone::new(self)));
+    }
+}
+
+impl Primitive for Cone {
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(self.sides, origin, direction)
+    }
+
+    fn stops(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(Sides::Both, origin, direction)
     }
 
     fn project(&self, point: DVec3) -> DVec3 {

@@ -76,6 +76,23 @@ impl Cylinder {
         let other = if q == 0.0 { 0.0 } else { c / q };
         Some([q.min(other) / across, q.max(other) / across])
     }
+
+    /// The nearest of: the side's roots between the ends, the ends' planes within the radius. From outside the
+    /// direction runs against the outward normal.
+    fn meets(&self, sides: Sides, origin: DVec3, direction: DVec3) -> Option<f64> {
+        let (o, d) = (self.along(origin - self.base), self.along(direction));
+        let side = self.roots(o, d).into_iter().flat_map(|[enter, leave]| [(enter, true), (leave, false)]);
+        let side = side.filter(|(t, _)| (0.0..=self.length).contains(&(o.z + t * d.z)));
+        let ends = [(-o.z / d.z, d.z > 0.0), ((self.length - o.z) / d.z, d.z < 0.0)];
+        let within = |t: f64| d.z != 0.0 && (o + t * d).truncate().length() <= self.radius;
+        let ends = ends.into_iter().filter(|(t, _)| self.caps && within(*t));
+        let there = |from_outside: bool| match sides {
+            Sides::Both => true,
+            Sides::Front => from_outside,
+            Sides::Back => !from_outside,
+        };
+        side.chain(ends).filter(|(t, from_outside)| *t > 0.0 && there(*from_outside)).map(|(t, _)| t).reduce(f64::min)
+    }
 }
 
 impl Primitives for scene::Cylinder {
@@ -85,21 +102,12 @@ impl Primitives for scene::Cylinder {
 }
 
 impl Primitive for Cylinder {
-    /// The nearest of: the side's roots between the ends, the ends' planes within the radius. From outside the
-    /// direction runs against the outward normal.
     fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        let (o, d) = (self.along(origin - self.base), self.along(direction));
-        let side = self.roots(o, d).into_iter().flat_map(|[enter, leave]| [(enter, true), (leave, false)]);
-        let side = side.filter(|(t, _)| (0.0..=self.length).contains(&(o.z + t * d.z)));
-        let ends = [(-o.z / d.z, d.z > 0.0), ((self.length - o.z) / d.z, d.z < 0.0)];
-        let within = |t: f64| d.z != 0.0 && (o + t * d).truncate().length() <= self.radius;
-        let ends = ends.into_iter().filter(|(t, _)| self.caps && within(*t));
-        let there = |from_outside: bool| match self.sides {
-            Sides::Both => true,
-            Sides::Front => from_outside,
-            Sides::Back => !from_outside,
-        };
-        side.chain(ends).filter(|(t, from_outside)| *t > 0.0 && there(*from_outside)).map(|(t, _)| t).reduce(f64::min)
+        self.meets(self.sides, origin, direction)
+    }
+
+    fn stops(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(Sides::Both, origin, direction)
     }
 
     fn project(&self, point: DVec3) -> DVec3 {

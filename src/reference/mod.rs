@@ -50,6 +50,10 @@ pub struct Hit {
 trait Primitive: Debug + Send + Sync {
     /// The first distance above 0 at which the ray meets the sides that are there.
     fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64>;
+    /// The same for light, which is stopped from both sides, whichever is there to be seen.
+    fn stops(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.distance(origin, direction)
+    }
     /// The point of the surface nearest to a point close to it.
     fn project(&self, point: DVec3) -> DVec3;
     /// The unit geometric normal at a point close to the surface, as described or wound, or outward.
@@ -130,15 +134,25 @@ impl Tracer {
         })
     }
 
-    /// Whether anything lies in (0, `t_max`).
+    /// Whether anything lies in (0, `t_max`) that stops light: surfaces do from both sides, whichever are seen.
     pub fn blocked(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
-        self.distances(origin, direction).any(|(_, t)| t < t_max)
+        self.primitives.iter().filter_map(|p| p.stops(origin, direction)).any(|t| t < t_max)
     }
 
     /// The first distance above 0 at which the ray meets a primitive, whatever else is in the way; `None` for unknown
     /// ids.
     pub fn distance(&self, id: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
         self.primitives.get(id as usize)?.distance(origin, direction)
+    }
+
+    /// The first distance above 0 at which a primitive stops light, from whichever side; `None` for unknown ids.
+    pub fn stop(&self, id: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.primitives.get(id as usize)?.stops(origin, direction)
+    }
+
+    /// How many primitives there are.
+    pub fn primitives(&self) -> usize {
+        self.primitives.len()
     }
 
     /// A primitive's own size: a sphere's radius, a triangle's longest edge, 0 for planes and unknown ids.

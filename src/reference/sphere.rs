@@ -21,21 +21,13 @@ impl Sphere {
             material: sphere.material,
         }
     }
-}
 
-impl Primitives for scene::Sphere {
-    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
-        to.push(Box::new(Sphere::new(self)));
-    }
-}
-
-impl Primitive for Sphere {
     /// The first root above 0 of t² + 2bt + c = 0, with b = (o − c)·d and c = |o − c|² − r².
     ///
     /// The quarter discriminant b² − c is taken as r² less the squared distance of the ray's line from the
     /// centre, and the roots as q and c/q: the plain formulae cancel for a small sphere far away even in `f64`.
     /// A tangent counts as a hit.
-    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+    fn meets(&self, sides: Sides, origin: DVec3, direction: DVec3) -> Option<f64> {
         let from_center = origin - self.center;
         let b = from_center.dot(direction);
         let discriminant = self.radius * self.radius - (from_center - b * direction).length_squared();
@@ -52,12 +44,28 @@ impl Primitive for Sphere {
             let q = -b + root;
             (c / q, q)
         };
-        let there = match self.sides {
+        let there = match sides {
             Sides::Both => &[first, second][..],
             Sides::Front => &[first],
             Sides::Back => &[second],
         };
         there.iter().copied().find(|&t| t > 0.0)
+    }
+}
+
+impl Primitives for scene::Sphere {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        to.push(Box::new(Sphere::new(self)));
+    }
+}
+
+impl Primitive for Sphere {
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(self.sides, origin, direction)
+    }
+
+    fn stops(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(Sides::Both, origin, direction)
     }
 
     fn normal(&self, point: DVec3) -> DVec3 {

@@ -45,26 +45,18 @@ impl Triangle {
         let sum = u + v + w;
         [u / sum, v / sum, w / sum]
     }
-}
 
-impl Primitives for Mesh {
-    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
-        (0..self.triangles.len()).for_each(|i| to.push(Box::new(Triangle::new(self, i))));
-    }
-}
-
-impl Primitive for Triangle {
     /// Where the ray meets the triangle's plane, if it passes all edges on the same side.
     ///
     /// The side is the sign of the volume that the direction spans with the edge's two corners, seen from the
     /// origin. It is exactly opposite for two triangles that share the edge, so no ray slips between them. An
     /// edge belongs to the triangle; a triangle without area, or seen edge-on, is never hit.
-    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+    fn meets(&self, sides: Sides, origin: DVec3, direction: DVec3) -> Option<f64> {
         let [a, b, c] = self.from(origin);
-        let sides = [a.cross(b).dot(direction), b.cross(c).dot(direction), c.cross(a).dot(direction)];
-        let inside = sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0);
+        let volumes = [a.cross(b).dot(direction), b.cross(c).dot(direction), c.cross(a).dot(direction)];
+        let inside = volumes.iter().all(|&s| s >= 0.0) || volumes.iter().all(|&s| s <= 0.0);
         let slope = self.normal.dot(direction);
-        let there = match self.sides {
+        let there = match sides {
             Sides::Both => slope != 0.0,
             Sides::Front => slope < 0.0,
             Sides::Back => slope > 0.0,
@@ -74,6 +66,22 @@ impl Primitive for Triangle {
         }
         let t = self.normal.dot(a) / slope;
         (t > 0.0).then_some(t)
+    }
+}
+
+impl Primitives for Mesh {
+    fn add(&self, to: &mut Vec<Box<dyn Primitive>>) {
+        (0..self.triangles.len()).for_each(|i| to.push(Box::new(Triangle::new(self, i))));
+    }
+}
+
+impl Primitive for Triangle {
+    fn distance(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(self.sides, origin, direction)
+    }
+
+    fn stops(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        self.meets(Sides::Both, origin, direction)
     }
 
     fn project(&self, point: DVec3) -> DVec3 {

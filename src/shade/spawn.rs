@@ -185,3 +185,7 @@ pub fn mirror_above<L: Lanes>(direction: Vec3<L>, normal: Vec3<L>, geometric: Ve
     let r = mirror(direction, normal);
     r.select(r.dot(geometric).gt(L::zero()), mirror(direction, geometric))
 }
+
+#[cfg(test)]
+#[path = "spawn_tests.rs"]
+mod tests;

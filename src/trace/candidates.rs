@@ -5,6 +5,7 @@ use crate::geometry::*;
 use crate::kinds::for_each_kind;
 use crate::math::{Lanes, Vec3};
 use crate::scene::Scene;
+use crate::trace::query::Query;
 
 /// The form in which a candidate is kept until the packets come.
 pub trait Form {
@@ -78,10 +79,10 @@ impl<F: Form, K: Primitives> Default for List<F, K> {
 impl<F: Form, K: Primitives> List<F, K> {
     /// Gathers what of a kind, whose first primitive has the id `first`, a batch with these bounds may meet.
     #[inline(always)]
-    fn fill<L: Lanes>(&mut self, kind: &K, first: u32, bounds: &Bounds) {
+    fn fill<Q: Query, L: Lanes>(&mut self, kind: &K, first: u32, bounds: &Bounds) {
         self.standard.clear();
         if let Some(test) = kind.named() {
-            return self.fill_named::<L>(test, kind, first, bounds);
+            return self.fill_named::<Q, L>(test, kind, first, bounds);
         }
         let origin = bounds.origin.middle;
         met::<K, L>(
@@ -89,13 +90,14 @@ impl<F: Form, K: Primitives> List<F, K> {
             bounds,
             #[inline(always)]
             |i| {
-                self.standard.push((F::record(Standard, kind, i, origin), kind.variant(i), first + i as u32));
+                let record = F::record(Standard, kind, i, origin);
+                self.standard.push((record, Q::variant(kind.variant(i)), first + i as u32));
             },
         );
     }
 
     #[inline(never)]
-    fn fill_named<L: Lanes>(&mut self, test: K::Named, kind: &K, first: u32, bounds: &Bounds) {
+    fn fill_named<Q: Query, L: Lanes>(&mut self, test: K::Named, kind: &K, first: u32, bounds: &Bounds) {
         self.named.clear();
         let origin = bounds.origin.middle;
         met::<K, L>(
@@ -103,7 +105,8 @@ impl<F: Form, K: Primitives> List<F, K> {
             bounds,
             #[inline(always)]
             |i| {
-                self.named.push((F::record(test, kind, i, origin), kind.variant(i), first + i as u32));
+                let record = F::record(test, kind, i, origin);
+                self.named.push((record, Q::variant(kind.variant(i)), first + i as u32));
             },
         );
     }
@@ -169,17 +172,17 @@ macro_rules! lists {
         impl<F: Form> Lists<F> {
             /// Gathers what the batch with these bounds may meet.
             #[inline(always)]
-            pub fn fill<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) {
-                self.$planes.fill::<L>(&scene.$planes, scene.first.$planes, bounds);
-                self.$spheres.fill::<L>(&scene.$spheres, scene.first.$spheres, bounds);
-                self.$triangles.fill::<L>(&scene.$triangles, scene.first.$triangles, bounds);
-                self.more = scene.plan.rare && self.fill_more::<L>(scene, bounds);
+            pub fn fill<Q: Query, L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) {
+                self.$planes.fill::<Q, L>(&scene.$planes, scene.first.$planes, bounds);
+                self.$spheres.fill::<Q, L>(&scene.$spheres, scene.first.$spheres, bounds);
+                self.$triangles.fill::<Q, L>(&scene.$triangles, scene.first.$triangles, bounds);
+                self.more = scene.plan.rare && self.fill_more::<Q, L>(scene, bounds);
             }
 
             /// Whether there are any.
             #[inline(never)]
-            fn fill_more<L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> bool {
-                $(self.$field.fill::<L>(&scene.$field, scene.first.$field, bounds);)*
+            fn fill_more<Q: Query, L: Lanes>(&mut self, scene: &Scene, bounds: &Bounds) -> bool {
+                $(self.$field.fill::<Q, L>(&scene.$field, scene.first.$field, bounds);)*
                 false $(|| !self.$field.is_empty())*
             }
         }

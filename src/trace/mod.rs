@@ -89,7 +89,8 @@ fn nearest_of<L: Lanes, W: Lanes, C: Contents>(
 /// Whether anything lies in the interval of each active ray, in packets of `L::WIDTH`; a packet is left as soon as
 /// all its rays are blocked.
 ///
-/// A ray is blocked exactly when [`intersect()`] finds a hit for it. Bits of inactive rays are left as they were.
+/// A ray is blocked exactly when [`intersect()`] would find a hit for it if all surfaces were seen from both sides: light
+/// is stopped by a surface from either ([`crate::geometry::Sides`]). Bits of inactive rays are left as they were.
 pub fn occluded<L: Lanes>(scene: &Scene, rays: &RayBatch, blocked: &mut Blocked, scratch: &mut Scratch) {
     occluded_before::<L>(scene, rays, Prefetch::NOTHING, blocked, scratch);
 }
@@ -148,10 +149,10 @@ pub(crate) fn trace<Q: Query, L: Lanes, C: Contents>(
     }
     let Some(bounds) = bounds() else { return };
     if bounds.shared {
-        scratch.common.fill::<L>(scene, &bounds);
+        scratch.common.fill::<Q, L>(scene, &bounds);
         packets::trace::<Q, _, L, C>(scene, &scratch.common, rays, prefetch, take);
     } else {
-        scratch.any.fill::<L>(scene, &bounds);
+        scratch.any.fill::<Q, L>(scene, &bounds);
         packets::trace::<Q, _, L, C>(scene, &scratch.any, rays, prefetch, take);
     }
 }

@@ -1,5 +1,6 @@
 //! The few lines in which the two queries differ: what becomes of a hit.
 
+use crate::geometry::Variant;
 use crate::math::{LaneMask, Lanes, NONE};
 
 /// One of the two queries.
@@ -8,6 +9,11 @@ pub trait Query: 'static {
     const ANY: bool;
     /// The findings of a packet.
     type Found<L: Lanes>: Found<L>;
+    /// A primitive's variant as this query meets it: light is stopped by a side that is not there to be seen.
+    #[inline(always)]
+    fn variant<V: Variant>(variant: V) -> V {
+        if Self::ANY { variant.both_sides() } else { variant }
+    }
 }
 
 /// The nearest hit.

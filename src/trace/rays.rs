@@ -65,7 +65,7 @@ pub fn intersect_rays(scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
 }
 
 /// Whether anything lies in the interval of each of many rays, on the calling thread; else as [`intersect_rays`], and
-/// faster.
+/// faster. As for [`occluded()`], surfaces stop light from both sides.
 ///
 /// # Panics
 /// When the slices differ in length.

@@ -39,7 +39,7 @@ impl Probe {
         (hit.primitive != NONE).then_some(hit)
     }
 
-    /// Whether anything lies in (0, t_max) along one ray; `direction` has unit length.
+    /// Whether anything lies in (0, t_max) along one ray, on either side of it; `direction` has unit length.
     pub fn occluded(&mut self, scene: &Scene, origin: Vec3, direction: Vec3, t_max: f32) -> bool {
         self.aim(origin, direction, 0.0, t_max);
         self.blocked = Blocked::default();

@@ -6,7 +6,7 @@ use raypacket::measure::cases::{Ray, find};
 use raypacket::measure::oracle::{self, Shape, Truth, nearest, shapes};
 use raypacket::scene::{Description, Fractal, Scene};
 
-use crate::common::{Pcg, ROUNDOFF, empty};
+use crate::common::{Pcg, ROUNDOFF, empty, part_of};
 use crate::{at, compiled, surface, trace};
 
 /// Rays of one primitive: one pose, one size.
@@ -202,5 +202,5 @@ fn nothing_meets_what_it_left() {
 #[test]
 #[ignore = "takes minutes; for a release build"]
 fn nothing_meets_what_it_left_in_full() {
-    check(10_000_000);
+    check(part_of(10_000_000));
 }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use raypacket::measure::cases::{ALL, Generator, Subject};
 use raypacket::measure::oracle::{Shape, shapes};
 
+use crate::common::part_of;
 use crate::judge::{Judge, Verdict};
 use crate::{compiled, trace};
 
@@ -157,5 +158,5 @@ fn hard_cases() {
 #[test]
 #[ignore = "takes minutes; for a release build"]
 fn hard_cases_in_full() {
-    check(1000, true);
+    check(part_of(1000), true);
 }

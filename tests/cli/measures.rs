@@ -90,6 +90,11 @@ fn methods_are_chosen_by_name_and_judged_like_all_others() {
         assert_eq!(verdict.status, Some(1), "{line}: {}", verdict.stdout);
         assert!(verdict.stdout.contains("FAIL"), "{line}: {}", verdict.stdout);
     }
+    let line = "bench glass --size 32x16 --threads 1 --seconds 0 --method sphere=geometric";
+    let verdict = run(line);
+    assert_eq!(verdict.status, Some(1), "{line}: {}", verdict.stdout);
+    assert!(verdict.stdout.contains("ANSWERS DISAGREE"), "{line}: {}", verdict.stdout);
+    assert!(verdict.stderr.contains("do not agree with the reference: glass"), "{line}: {}", verdict.stderr);
     run("verify cosmos classic --size 64x32 --method sphere=double --method normalize=newton_2").good();
     let Run { status, stderr, .. } = run("render good.toml -o x.png --method sphere=cubic");
     assert_eq!(status, Some(2));

@@ -43,6 +43,23 @@ pub fn mesh(corners: &[[Vec3; 3]]) -> Mesh {
     Mesh { positions: corners.as_flattened().to_vec(), triangles, ..Mesh::default() }
 }
 
+/// The size of a test that is ignored by default: in full, or the part that `RAYPACKET_PART` says, so that `.ci/run` can run
+/// it in little.
+pub fn part_of(full: usize) -> usize {
+    let part = std::env::var("RAYPACKET_PART").ok().map(|part| part.parse::<f64>().expect("RAYPACKET_PART: a number"));
+    (full as f64 * part.unwrap_or(1.0)) as usize
+}
+
+/// A scene as light meets it: with all its surfaces there from both sides. `None` where they are anyway.
+pub fn lit(description: &Description) -> Option<Description> {
+    let mut scene = description.clone();
+    scene.spheres.iter_mut().for_each(|it| it.sides = Sides::Both);
+    scene.meshes.iter_mut().for_each(|it| it.sides = Sides::Both);
+    scene.cylinders.iter_mut().for_each(|it| it.sides = Sides::Both);
+    scene.cones.iter_mut().for_each(|it| it.sides = Sides::Both);
+    (scene != *description).then_some(scene)
+}
+
 /// A light of power 1 in every channel.
 pub fn light(position: Vec3) -> Light {
     Light { position, power: Vec3::ONE }

@@ -30,42 +30,48 @@ struct Case<'a> {
     scenes: &'a [Scene; 2],
     rays: RayBatch,
     expected: Vec<Answer>,
+    /// Of the scene as light meets it, where that is another.
+    stopped: Option<Vec<Answer>>,
     /// Says how to come back here.
     name: String,
 }
 
 impl<'a> Case<'a> {
-    fn new(scenes: &'a [Scene; 2], rays: RayBatch, name: String) -> Self {
-        let expected = (0..rays.len).map(|i| Answer::new(&scenes[0], &Ray::of(&rays, i))).collect();
-        Self { scenes, rays, expected, name }
+    fn new(Scenes { seen, lit }: &'a Scenes, rays: RayBatch, name: String) -> Self {
+        let of = |scene| (0..rays.len).map(|i| Answer::new(scene, &Ray::of(&rays, i))).collect();
+        Self { scenes: seen, expected: of(&seen[0]), stopped: lit.as_ref().map(of), rays, name }
+    }
+
+    /// Whether light is stopped, given whether the ray has a hit; `None` for a ray that is not finite.
+    fn blocked(&self, i: usize, hit: bool) -> Option<bool> {
+        match self.stopped.as_ref().map(|stopped| stopped[i]) {
+            // A ray is blocked exactly when `intersect` finds a hit.
+            None => Some(hit),
+            Some(Answer::Hit(_, id)) => Some(id != NONE),
+            Some(_) => None,
+        }
     }
 
     /// Both queries on the whole batch, and on every ray by itself.
     fn check<L: Lanes>(&self, scratch: &mut Scratch) {
-        self.check_batch::<L>(&self.rays, &self.expected, "batch", scratch);
-        for (i, answer) in self.expected.iter().enumerate() {
+        self.check_batch::<L>(&self.rays, 0, "batch", scratch);
+        for i in 0..self.rays.len {
             let Ray { origin, direction, t_min, t_max } = Ray::of(&self.rays, i);
             let mut one = RayBatch::default();
             one.push(origin, direction, t_min, t_max);
-            self.check_batch::<L>(&one, &[*answer], &format!("ray {i} alone"), scratch);
+            self.check_batch::<L>(&one, i, &format!("ray {i} alone"), scratch);
         }
     }
 
-    /// `expected` ends with the last ray; what comes after it has to be left as it was.
-    fn check_batch<L: Lanes>(&self, rays: &RayBatch, expected: &[Answer], what: &str, scratch: &mut Scratch) {
+    /// The rays are those from `first` on; what comes after the last has to be left as it was.
+    fn check_batch<L: Lanes>(&self, rays: &RayBatch, first: usize, what: &str, scratch: &mut Scratch) {
         let [without, with] = self.scenes;
-        self.check_in::<L>(without, rays, expected, what, scratch);
-        self.check_in::<L>(with, rays, expected, &format!("{what}, by the tree"), scratch);
+        self.check_in::<L>(without, rays, first, what, scratch);
+        self.check_in::<L>(with, rays, first, &format!("{what}, by the tree"), scratch);
     }
 
-    fn check_in<L: Lanes>(
-        &self,
-        scene: &Scene,
-        rays: &RayBatch,
-        expected: &[Answer],
-        what: &str,
-        scratch: &mut Scratch,
-    ) {
+    fn check_in<L: Lanes>(&self, scene: &Scene, rays: &RayBatch, first: usize, what: &str, scratch: &mut Scratch) {
+        let expected = &self.expected[first..first + rays.len];
         let mut hits = HitBatch { t: [OLD_T; BATCH], primitive: [OLD_ID; BATCH] };
         intersect::<L>(scene, rays, &mut hits, scratch);
         let answers = || (0..BATCH).map(|i| expected.get(i).copied().unwrap_or(Answer::Untouched)).enumerate();
@@ -86,19 +92,33 @@ impl<'a> Case<'a> {
             }
             occluded::<L>(scene, rays, &mut blocked, scratch);
             for (i, answer) in answers() {
-                // A ray is blocked exactly when `intersect` finds a hit.
-                let hit = u32::from(hits.primitive[i] != NONE);
-                let wanted = if answer == Answer::Untouched { old >> (i % 32) & 1 } else { hit };
                 let found = blocked.get(i, 1);
+                let wanted = if answer == Answer::Untouched {
+                    old >> (i % 32) & 1
+                } else {
+                    self.blocked(first + i, hits.primitive[i] != NONE).map_or(found, u32::from)
+                };
                 assert!(found == wanted, "{}, {what}: {} occluded, lane {i}: {found}", self.name, L::NAME);
             }
         }
     }
 }
 
-/// Without a tree and with one.
-fn both(description: &Description) -> [Scene; 2] {
-    [Structure::None, Structure::Tree].map(|s| compile_with(description, &s.into()).expect("a sound scene"))
+/// A scene compiled.
+struct Scenes {
+    /// Without a tree and with one.
+    seen: [Scene; 2],
+    /// As light meets it, where that is another.
+    lit: Option<Scene>,
+}
+
+impl Scenes {
+    fn new(description: &Description) -> Self {
+        let compiled =
+            |description: &Description, s: Structure| compile_with(description, &s.into()).expect("a sound scene");
+        let seen = [Structure::None, Structure::Tree].map(|s| compiled(description, s));
+        Self { seen, lit: common::lit(description).map(|lit| compiled(&lit, Structure::None)) }
+    }
 }
 
 fn lengths() -> impl Iterator<Item = usize> {
@@ -112,11 +132,11 @@ fn run(kind: scenes::Kind) {
     for seed in 0..ROUNDS {
         let mut rng = Pcg::new(seed);
         let place = Place::random(&mut rng);
-        let scenes = both(&scenes::scene(kind, place, &mut rng));
+        let scenes = Scenes::new(&scenes::scene(kind, place, &mut rng));
         for rays in rays::Kind::all() {
             for len in lengths() {
                 let name = format!("{kind:?}, seed {seed}, {rays:?}, {len} rays");
-                let case = Case::new(&scenes, rays::batch(rays, len, &scenes[0], place, &mut rng), name);
+                let case = Case::new(&scenes, rays::batch(rays, len, &scenes.seen[0], place, &mut rng), name);
                 case.check::<f32>(&mut scratch);
                 case.check::<f32x4>(&mut scratch);
                 case.check::<f32x8>(&mut scratch);
@@ -187,13 +207,13 @@ fn culling_beside_outlines() {
     {
         let mut rng = Pcg::new(1000 + seed);
         let place = Place::random(&mut rng);
-        let scenes = both(&scenes::scene(kind, place, &mut rng));
+        let scenes = Scenes::new(&scenes::scene(kind, place, &mut rng));
         for origins in [rays::Origins::Flagged, rays::Origins::Near] {
             for len in [2, 3, 7, 16] {
                 let rays = rays::Kind { origins, directions, broken: false };
                 let name = format!("{kind:?}, seed {seed}, {rays:?}, {len} rays");
-                let case = Case::new(&scenes, rays::batch(rays, len, &scenes[0], place, &mut rng), name);
-                case.check_batch::<f32x8>(&case.rays, &case.expected, "batch", &mut scratch);
+                let case = Case::new(&scenes, rays::batch(rays, len, &scenes.seen[0], place, &mut rng), name);
+                case.check_batch::<f32x8>(&case.rays, 0, "batch", &mut scratch);
             }
         }
     }
@@ -204,7 +224,7 @@ fn culling_beside_outlines() {
 fn origins_apart_by_next_to_nothing() {
     let mut description = common::empty();
     description.planes.push(common::plane(glam::Vec3::Y, 0.0));
-    let scenes = both(&description);
+    let scenes = Scenes::new(&description);
     let mut rays = RayBatch::default();
     for height in [0.0, 1e-25, -1e-25, 3e-25] {
         rays.push(glam::Vec3::Y * height, glam::Vec3::NEG_Y, 0.0, f32::INFINITY);

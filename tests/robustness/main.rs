@@ -10,6 +10,7 @@ mod glass;
 mod leak;
 mod lights;
 mod reintersect;
+mod shadows;
 mod sides;
 mod sizes;
 mod symmetry;

@@ -6,7 +6,7 @@ use raypacket::scene::{Description, Mesh, Structure, compile};
 use std::process::Command;
 use std::time::Instant;
 
-use crate::common::{Pcg, empty, film_bits, light};
+use crate::common::{Pcg, empty, film_bits, light, part_of};
 use crate::pictures::{compiled, picture};
 
 /// Set in the process that a test runs in by itself.
@@ -33,7 +33,10 @@ fn three_hundred_thousand_triangles() {
 #[test]
 #[ignore = "takes 1.5 GB, and the longer the less the build is optimized"]
 fn five_million_triangles() {
-    alone("field::five_million_triangles", || check(1582, [16, 16]));
+    alone("field::five_million_triangles", || {
+        let side = (part_of(5_000_000) as f64 / 2.0).sqrt().ceil();
+        check(side as usize, [16, 16]);
+    });
 }
 
 /// Of `side` × `side` squares, each cut in two; `brute` is the size of the picture that is traced without the tree, too.

@@ -7,12 +7,14 @@ use raypacket::scene::{Description, Scene, Structure, compile_with};
 use raypacket::trace::{Blocked, HitBatch, NONE, RayBatch, Scratch, intersect, occluded};
 use wide::{f32x4, f32x8};
 
-use crate::common::empty;
+use crate::common::{empty, lit};
 
 pub struct Pair {
     pub description: Description,
     pub without: Scene,
     pub with: Scene,
+    /// As light meets it, where that is another, without a tree.
+    lit: Option<Scene>,
     /// The boxes of all primitives that have one.
     pub boxes: Vec<Aabb>,
     /// The box around those, or a unit cube.
@@ -52,13 +54,14 @@ impl Pair {
             |s: Structure| compile_with(&description, &s.into()).unwrap_or_else(|e| panic!("a sound scene: {e}"));
         let [without, with] = [Structure::None, Structure::Tree].map(compiled);
         assert!(without.bvh.is_none() && with.bvh.is_some());
+        let lit = lit(&description).map(|d| compile_with(&d, &Structure::None.into()).expect("a sound scene"));
         let spheres = description.spheres.iter().map(|s| Aabb { min: s.center - s.radius, max: s.center + s.radius });
         let triangles = (0..with.triangles.material.len()).map(|i| with.triangles.corners(i));
         let triangles = triangles.map(|corners| corners.into_iter().fold(Aabb::EMPTY, Aabb::extend));
         let boxes: Vec<_> = spheres.chain(triangles).chain(with.boxes.iter().copied()).collect();
         let bounds = boxes.iter().copied().reduce(Aabb::union);
         let bounds = bounds.unwrap_or(Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE });
-        Self { description, without, with, boxes, bounds, scratch: Scratch::default() }
+        Self { description, without, with, lit, boxes, bounds, scratch: Scratch::default() }
     }
 
     /// The nearest hits without the tree.
@@ -72,6 +75,7 @@ impl Pair {
         let x1 = Answers::new::<f32>(&self.with, rays, &mut self.scratch);
         let x4 = Answers::new::<f32x4>(&self.with, rays, &mut self.scratch);
         let x8 = Answers::new::<f32x8>(&self.with, rays, &mut self.scratch);
+        let lit = self.lit.as_ref().map(|lit| Answers::new::<f32x8>(lit, rays, &mut self.scratch));
         let mut counts = [0; 2];
         for i in 0..BATCH {
             for (width, found) in [("x1", &x1), ("x4", &x4), ("x8", &x8)] {
@@ -83,7 +87,8 @@ impl Pair {
             let (_, id, blocked) = wanted.of(i);
             if i < rays.len && rays.t_max[i] >= 0.0 {
                 let hit = id != NONE;
-                assert!(hit == (blocked == 1), "{name}: ray {i} is blocked exactly when it hits");
+                let stopped = lit.as_ref().map_or(id, |lit| lit.of(i).1) != NONE;
+                assert!(stopped == (blocked == 1), "{name}: ray {i} is blocked exactly when light meets anything");
                 counts = [counts[0] + 1, counts[1] + usize::from(hit)];
             }
         }

@@ -24,6 +24,8 @@ pub(super) struct Neighbourhood {
     pub direction: DVec3,
     /// The s of the bound.
     pub scale: f64,
+    /// The k of the bound; more than [`K`] where the direction is not of unit length.
+    pub k: f64,
 }
 
 /// One question: a ray, and how roughly its secondary rays are followed.
@@ -40,11 +42,12 @@ impl Neighbourhood {
     /// in every other triple they are lifted more than finely, more often little than much.
     pub fn question(&self, i: u32) -> Question {
         let turn = if i % 3 == 1 { DVec3::ZERO } else { self.turn(i) };
-        let shift = if i.is_multiple_of(3) { DVec3::ZERO } else { K * U * self.shift(i) };
-        let lift = if (i / 3).is_multiple_of(2) { 0.0 } else { K * U * spread(i, 11.0).powi(2) };
+        let ku = self.k * U;
+        let shift = if i.is_multiple_of(3) { DVec3::ZERO } else { ku * self.shift(i) };
+        let lift = if (i / 3).is_multiple_of(2) { 0.0 } else { ku * spread(i, 11.0).powi(2) };
         Question {
             origin: self.origin + self.scale * shift,
-            direction: (self.direction + K * U * turn).normalize(),
+            direction: (self.direction + ku * turn).normalize(),
             rounding: Rounding { lift: lift.max(Rounding::FINE.lift), shift },
         }
     }
@@ -79,7 +82,7 @@ mod tests {
 
     #[test]
     fn questions_stay_within_the_bound_and_reach_all_around() {
-        let around = Neighbourhood { origin: DVec3::new(1.0, 2.0, 3.0), direction: DVec3::X, scale: 10.0 };
+        let around = Neighbourhood { origin: DVec3::new(1.0, 2.0, 3.0), direction: DVec3::X, scale: 10.0, k: K };
         let mut corner = [(DVec3::ZERO, DVec3::ZERO); 2];
         for i in 0..ROUNDS[0] {
             let question = around.question(i);

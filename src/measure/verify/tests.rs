@@ -271,6 +271,27 @@ fn kernels_have_to_agree_to_the_bit() {
     assert!(different.kernels.iter().all(|k| k.comparison.explained()));
 }
 
+/// Of a black wall that fills the view only distances tell where it is; and they alone make a scene fail.
+#[test]
+fn wrong_distances_alone_fail() {
+    let wall = |distance: f32| Description {
+        camera: CameraDescription { eye: vec3(0.0, 0.0, 5.0), look_at: Vec3::ZERO, ..Default::default() },
+        materials: vec![Material { pigment: Pigment::Color(Vec3::ZERO), ..Material::default() }],
+        planes: vec![Plane { normal: Vec3::Z, distance, material: 0 }],
+        ..Default::default()
+    };
+    let [width, height] = SIZE;
+    for (distance, off) in [(1.0, false), (1.0001, true), (0.9999, true)] {
+        let scene = scene::compile(&wall(distance)).expect("a sound scene");
+        let report = verify_compiled(&wall(1.0), &scene, &Kernel::ALL, width, height);
+        assert_eq!((report.pass, report.identical), (!off, true), "{report}");
+        for KernelReport { comparison, .. } in report.kernels {
+            assert_eq!((comparison.hits_different, comparison.pixels_different), (0, 0));
+            assert_eq!(comparison.t_unexplained, usize::from(off) * width * height);
+        }
+    }
+}
+
 #[test]
 fn table_and_json() {
     let right = answers(&scene(), 0.0);
@@ -296,5 +317,9 @@ fn display_curve() {
     assert_eq!((shown(-1.0), shown(0.0), shown(1e9)), (0.0, 0.0, 1.0 * shown(1.0)));
     assert!((shown(1.0) - 1.0).abs() < 1e-12 && (shown(0.214_041_14) - 0.5).abs() < 1e-6);
     assert!((shown(0.003_130_8) - shown(0.003_130_9)).abs() < 1e-5, "no jump between the pieces");
-    assert!(shown(f64::NAN).is_nan() && shown(f64::INFINITY).is_nan());
+    assert!(shown(f64::NAN).is_nan() && shown(f64::NEG_INFINITY).is_nan());
+    // Infinite light against light that no f32 holds, and against what is only bright.
+    let same = |a: f64, b: f64| !truth::differing(DVec3::splat(shown(a)), DVec3::splat(shown(b))).any();
+    assert!(same(f64::INFINITY, 4e38) && same(f64::INFINITY, 1e33) && same(1e30, 1.000_001e30) && same(1.0, 1e27));
+    assert!(!same(f64::INFINITY, 1e27) && !same(f64::INFINITY, 1.0) && !same(f64::NAN, 4e38));
 }

@@ -109,7 +109,7 @@ impl Truth {
         let hit = self.hits[i]
             .map_or(0.0, |hit| (origin + hit.t * direction).length().max(self.tracer.extent(hit.primitive)));
         let scale = origin.length().max(hit).max(self.tracer.extent(primitive));
-        Neighbourhood { origin, direction, scale }
+        Neighbourhood { origin, direction, scale, k: K }
     }
 }
 

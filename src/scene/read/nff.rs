@@ -9,7 +9,8 @@
 //!   highlight: the former by the format's convention; the latter since a cosine to the power of 0 is light from
 //!   everywhere, while files write 0 where nothing shines.
 //! - Opaque surfaces are there from outside only, or from inside only where radii are negative. Those that transmit
-//!   are there from both sides, but for negative radii.
+//!   are there from both sides, but for negative radii. All stop light from both sides: the format says what is visible,
+//!   and nothing of shadows.
 //! - Patches (`pp`) are there from both sides, since the order of their corners says nothing: it may oppose the
 //!   normals, even within a file. Their triangles are turned to agree with the normals, which point outside.
 

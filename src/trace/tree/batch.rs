@@ -35,7 +35,7 @@ pub fn trace<Q: Query, L: Lanes>(
 
 /// Leaves the answers in `state`.
 #[inline(never)]
-fn answer<Q: Query, L: Lanes>(
+pub(super) fn answer<Q: Query, L: Lanes>(
     scene: &Scene,
     bvh: &Bvh,
     rays: &RayBatch,

@@ -280,7 +280,7 @@ macro_rules! visit {
     (spheres $($rest:tt)*) => { visit!(@here $($rest)*) };
     (triangles $($rest:tt)*) => { visit!(@here $($rest)*) };
     (@here $Q:ident, $V:ident, $walk:expr, $kind:expr, $list:expr, $i:expr, $visitor:expr) => {
-        $visitor.visit::<$Q, _>($walk, $kind, &$list.blocks[$i], $list.variant($i))
+        $visitor.visit::<$Q, _>($walk, $kind, &$list.blocks[$i], $Q::variant($list.variant($i)))
     };
     ($field:ident $Q:ident, $V:ident, $walk:expr, $kind:expr, $list:expr, $i:expr, $visitor:expr) => {
         apart::<$Q, _, $V>($walk, $kind, $list, $i, $visitor)
@@ -289,7 +289,7 @@ macro_rules! visit {
 
 #[inline(never)]
 fn apart<Q: Query, K: Leaf, V: Visitor>(walk: &mut Walk, kind: &K, list: &BlockList<K>, i: usize, visitor: &V) -> bool {
-    visitor.visit::<Q, K>(walk, kind, &list.blocks[i], list.variant(i))
+    visitor.visit::<Q, K>(walk, kind, &list.blocks[i], Q::variant(list.variant(i)))
 }
 
 for_each_kind!(leaves);

@@ -35,6 +35,8 @@ mod packet;
 mod single;
 mod stack;
 mod state;
+#[cfg(test)]
+mod tests;
 mod triangles;
 mod walk;
 

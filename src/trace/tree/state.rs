@@ -156,3 +156,33 @@ impl State {
         most.greatest()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3 as V;
+    use wide::{f32x4, f32x8};
+
+    fn rays(len: usize) -> RayBatch {
+        let mut rays = RayBatch::default();
+        (0..len).for_each(|i| rays.push(V::splat(i as f32), V::X, 0.0, f32::INFINITY));
+        rays
+    }
+
+    /// What lies beyond a batch's end does not look, whatever the batch before left there, up to what packets and beams read.
+    #[test]
+    fn nothing_beyond_the_end_looks() {
+        for len in [1, 3, 8, 9, 15, 16, 17, 100, 255, 256] {
+            let starts: [fn(&mut State, &RayBatch); 4] =
+                [State::start::<f32>, State::start::<f32x4>, State::start::<f32x8>, State::start::<f32x16>];
+            for start in starts {
+                let mut state = Box::<State>::default();
+                state.t = [1.0; BATCH];
+                start(&mut state, &rays(len));
+                assert!(state.t[..len].iter().all(|t| *t == f32::INFINITY), "{len}");
+                let tail = &state.t[len..len.next_multiple_of(MAX_LANES)];
+                assert!(tail.iter().all(|t| t.is_nan()), "{len}: {tail:?}");
+            }
+        }
+    }
+}
