@@ -24,7 +24,7 @@
 use super::face::{self, between};
 use super::methods::TriangleMethod;
 use super::numbers::numbers;
-use super::{Bounded, Cull, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
+use super::{Bounded, Cull, LaneHits, Mapping, Number, Primitives, Sides, Surface, Test, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 use wide::f32x8;
 
@@ -309,6 +309,10 @@ impl Primitives for Triangles {
         let w = L::splat(1.0) - u - v;
         let at = |a: f32, b: f32, c: f32| L::splat(c).mul_add(v, L::splat(b).mul_add(u, L::splat(a) * w));
         [at(a.x, b.x, c.x), at(a.y, b.y, c.y)]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, i: usize, _: &Surface<L>) -> Mapping<L> {
+        if self.uvs.at(i).is_some() { Mapping::endless() } else { Mapping::face() }
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -64,8 +64,32 @@ trait Primitive: Debug + Send + Sync {
     fn material(&self) -> usize;
     /// Texture coordinates at a point of the surface.
     fn uv(&self, point: DVec3) -> DVec2;
+    /// What comes at the ends of those coordinates.
+    fn edges(&self, point: DVec3) -> Edges;
     /// The coordinates a checkerboard is laid in; 0 for the third where it is flat.
     fn checker(&self, point: DVec3) -> DVec3;
+}
+
+/// What comes where texture coordinates are 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Edge {
+    /// Nothing: they go on, or around.
+    None,
+    /// The surface, or this part of it, ends.
+    Edge,
+    /// All of the other coordinate comes together in a point.
+    Point,
+}
+
+/// Those of u at 0 and 1, then those of v.
+type Edges = [[Edge; 2]; 2];
+
+/// On a face.
+const FACE: Edges = [[Edge::Edge; 2]; 2];
+
+/// Around a body, with its lower and upper end.
+fn around(lower: Edge, upper: Edge) -> Edges {
+    [[Edge::None; 2], [lower, upper]]
 }
 
 /// An element of a description: a primitive, or a mesh of them.

@@ -190,8 +190,10 @@ impl Tracer {
         let base = match material.pigment {
             Pigment::Color(color) => color.as_dvec3(),
             Pigment::Checker { colors, size } => checker(colors, primitive.checker(position) / f64::from(size)),
-            Pigment::Texture { texture, size } => {
-                texture::sample(&self.textures[texture], primitive.uv(position) / f64::from(size))
+            Pigment::Texture { texture, size, wrap } => {
+                let [u, v] = primitive.uv(position).to_array();
+                let edges = primitive.edges(position);
+                texture::sample(&self.textures[texture], [u, v], edges, f64::from(size), wrap)
             }
         };
         Some(Point {

@@ -1,5 +1,5 @@
 //! Triangles.
-use super::{Primitive, Primitives, axes};
+use super::{Edge, Edges, FACE, Primitive, Primitives, axes};
 use crate::scene::{Mesh, Sides};
 use glam::{DVec2, DVec3};
 
@@ -106,6 +106,10 @@ impl Primitive for Triangle {
         let [a, b, c] = self.uvs.unwrap_or([DVec2::ZERO, DVec2::X, DVec2::Y]);
         let [u, v, w] = self.weights(point);
         u * a + v * b + w * c
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        if self.uvs.is_some() { [[Edge::None; 2]; 2] } else { FACE }
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

@@ -10,6 +10,7 @@ mod description;
 mod in_tree;
 mod kinds;
 mod plan;
+mod poles;
 mod primitive;
 #[cfg(feature = "files")]
 mod read;
@@ -24,6 +25,7 @@ pub use compile::{CompileOptions, First, Medium, Scene, compile, compile_with};
 pub use description::*;
 pub use kinds::*;
 pub use plan::{Plan, ShadowStart, Structure, Tested};
+pub(crate) use poles::texels;
 pub use primitive::{Primitive, PrimitiveKind};
 #[cfg(feature = "files")]
 pub use read::*;

@@ -5,9 +5,9 @@ use super::spawn::Offsets;
 use super::surface::shading_normal;
 use super::texture;
 use super::wave::Wave;
-use crate::geometry::{Primitives, Surface};
-use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3, exp2};
-use crate::scene::{Material, Pigment, Scene, with_primitive};
+use crate::geometry::{Mapping, Primitives, Surface};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3, exp2, map2};
+use crate::scene::{Material, Pigment, Scene, Wrap, with_primitive};
 use crate::trace::{Contents, Nearest};
 
 /// The surfaces that a wave's rays hit, column by column.
@@ -290,7 +290,7 @@ fn paint<'a, K: Primitives, L: Lanes>(scene: &'a Scene, kind: &K, i: usize, p: V
             let odd = odd_cell(kind.checker(i, &surface) * L::splat(1.0 / size));
             Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
         }
-        Pigment::Texture { texture, size } => textured(scene, kind, i, surface, texture, 1.0 / size),
+        Pigment::Texture { texture, size, wrap } => textured(scene, kind, i, surface, texture, 1.0 / size, wrap),
     };
     Painted { surface, material, color }
 }
@@ -302,7 +302,7 @@ fn odd_cell<L: Lanes>(q: Vec3<L>) -> L::Mask {
     !half.floor().eq(half)
 }
 
-/// The colour of a texture.
+/// The colour of a texture that has so many repeats from 0 to 1.
 #[inline(never)]
 fn textured<K: Primitives, L: Lanes>(
     scene: &Scene,
@@ -310,9 +310,19 @@ fn textured<K: Primitives, L: Lanes>(
     i: usize,
     surface: Surface<L>,
     texture: usize,
-    per_size: f32,
+    repeats: f32,
+    wrap: Wrap,
 ) -> Vec3<L> {
-    let [u, v] = kind.uv(i, &surface);
-    let per_size = L::splat(per_size);
-    texture::sample(&scene.textures[texture], u * per_size, v * per_size)
+    let uv = map2(kind.uv(i, &surface), |x| x * L::splat(repeats));
+    let texture = &scene.textures[texture];
+    match wrap {
+        Wrap::Repeat => texture::sample(texture, uv, &Mapping::endless(), repeats),
+        Wrap::Clamp => texture::sample(texture, uv, &Mapping::face(), 1.0),
+        Wrap::Ends => {
+            let mapping = kind.mapping(i, &surface);
+            let color = texture::sample(texture, uv, &mapping, repeats);
+            let poles = &scene.poles[kind.material(i) as usize];
+            texture::at_poles(color, poles, uv[1], &mapping, repeats, texture.height)
+        }
+    }
 }
