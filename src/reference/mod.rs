@@ -44,6 +44,8 @@ pub struct Hit {
     pub primitive: u32,
     /// Unit geometric normal, turned against the ray.
     pub normal: DVec3,
+    /// Unit normal for shading, on the same side.
+    pub shading_normal: DVec3,
 }
 
 /// One primitive, whatever its kind.
@@ -149,8 +151,10 @@ impl Tracer {
             }
         });
         nearest.map(|id: usize| {
-            let normal = self.primitives[id].normal(origin + t_max * direction);
-            Hit { t: t_max, primitive: id as u32, normal: turned(normal, direction) }
+            let (primitive, point) = (&self.primitives[id], origin + t_max * direction);
+            let normal = turned(primitive.normal(point), direction);
+            let shading_normal = turned(primitive.shading_normal(point), -normal);
+            Hit { t: t_max, primitive: id as u32, normal, shading_normal }
         })
     }
 

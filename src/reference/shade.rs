@@ -185,8 +185,7 @@ impl Tracer {
         let material = &self.materials[primitive.material()];
         let outward = primitive.normal(position);
         let normal = turned(outward, direction);
-        let smooth = primitive.shading_normal(position);
-        let smooth = if smooth.dot(normal) < 0.0 { -smooth } else { smooth };
+        let smooth = turned(primitive.shading_normal(position), -normal);
         let base = match material.pigment {
             Pigment::Color(color) => color.as_dvec3(),
             Pigment::Checker { colors, size } => checker(colors, primitive.checker(position) / f64::from(size)),

@@ -23,6 +23,6 @@ pub use interaction::SurfaceInteraction;
 pub use path::{Segment, SegmentKind, path};
 #[cfg(feature = "lab")]
 pub(crate) use spawn::Offsets;
-pub(crate) use surface::facing_normal;
+pub(crate) use surface::facing_normals;
 pub use wave::{Observer, Stage};
 pub use whitted::{Counts, Workspace, trace_waves};

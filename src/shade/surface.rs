@@ -19,12 +19,20 @@ pub fn surface<L: Lanes>(scene: &Scene, id: u32, p: Vec3<L>) -> (Surface<L>, u32
     with_primitive!(scene, id, |kind, i| (kind.surface(i, p), kind.material(i)))
 }
 
-/// The unit normal where one ray hit a primitive, turned against the ray; zero for a ray that hit nothing.
-pub(crate) fn facing_normal(scene: &Scene, id: u32, origin: glam::Vec3, direction: glam::Vec3, t: f32) -> [f32; 3] {
+/// The unit normals where one ray hit a primitive, the surface's own and that for shading, on the side that the ray came
+/// from; zero for a ray that hit nothing.
+pub(crate) fn facing_normals(
+    scene: &Scene,
+    id: u32,
+    origin: glam::Vec3,
+    direction: glam::Vec3,
+    t: f32,
+) -> [[f32; 3]; 2] {
     if id == crate::math::NONE {
-        return [0.0; 3];
+        return [[0.0; 3]; 2];
     }
     let (surface, _) = surface::<f32>(scene, id, (origin + direction * t).into());
-    let normal = glam::Vec3::from(surface.normal);
-    (if normal.dot(direction) > 0.0 { -normal } else { normal }).to_array()
+    let normals = [surface.normal, shading_normal(scene, id, &surface)].map(glam::Vec3::from);
+    let behind = normals[0].dot(direction) > 0.0;
+    normals.map(|n| (if behind { -n } else { n }).to_array())
 }
