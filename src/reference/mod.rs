@@ -60,6 +60,10 @@ trait Primitive: Debug + Send + Sync {
     fn shading_normal(&self, point: DVec3) -> DVec3 {
         self.normal(point)
     }
+    /// From where lights are seen at a point, on the side of `towards`.
+    fn seen_from(&self, point: DVec3, _towards: DVec3) -> DVec3 {
+        point
+    }
     /// The primitive's own size, 0 for a plane.
     fn extent(&self) -> f64;
     /// Index into the materials.

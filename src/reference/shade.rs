@@ -41,6 +41,8 @@ struct Way<'a> {
 struct Point<'a> {
     /// Exactly on the surface but for rounding.
     position: DVec3,
+    /// From where it sees lights.
+    raised: DVec3,
     /// Unit normal of the surface, turned against the ray.
     normal: DVec3,
     /// Unit normal for shading, on the same side.
@@ -197,6 +199,7 @@ impl Tracer {
         };
         Some(Point {
             position,
+            raised: primitive.seen_from(position, normal),
             normal,
             smooth,
             front: outward.dot(direction) <= 0.0,
@@ -211,10 +214,10 @@ impl Tracer {
     /// The radiance that one light adds: E (base n·l + specular max(0, r·l)^shininess), unless something is in the way.
     fn direct(&self, light: &Light, point: &Point<'_>, mirrored: DVec3, rounding: &Rounding) -> DVec3 {
         let position = light.position.as_dvec3();
-        let to_light = position - point.position;
+        let to_light = position - point.raised;
         let Some(l) = to_light.try_normalize() else { return DVec3::ZERO };
         let cosine = point.smooth.dot(l);
-        if cosine <= 0.0 || point.normal.dot(l) <= 0.0 || self.shadowed(point, position, rounding) {
+        if cosine <= 0.0 || self.shadowed(point, position, rounding) {
             return DVec3::ZERO;
         }
         let power = light.power.as_dvec3();
@@ -226,7 +229,7 @@ impl Tracer {
 
     /// Whether anything lies between the surface and a light, the two ends left out.
     fn shadowed(&self, point: &Point<'_>, light: DVec3, rounding: &Rounding) -> bool {
-        let start = point.lifted(rounding, 1.0);
+        let start = point.raised + (point.lifted(rounding, 1.0) - point.position);
         let (direction, distance) = (light - start).normalize_and_length();
         // A surface through the light itself does not block it.
         let slack = rounding.lift * (distance + light.length());

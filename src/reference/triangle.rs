@@ -8,7 +8,7 @@ pub(super) struct Triangle {
     corners: [DVec3; 3],
     /// Unit, (v1 − v0) × (v2 − v0); zero when the triangle has no area.
     normal: DVec3,
-    /// At the corners.
+    /// At the corners, unit.
     normals: Option<[DVec3; 3]>,
     uvs: Option<[DVec2; 3]>,
     sides: Sides,
@@ -24,7 +24,7 @@ impl Triangle {
         Self {
             corners,
             normal: (b - a).cross(c - a).normalize_or_zero(),
-            normals: (!mesh.normals.is_empty()).then(|| vertices.map(|v| mesh.normals[v].as_dvec3())),
+            normals: (!mesh.normals.is_empty()).then(|| vertices.map(|v| mesh.normals[v].as_dvec3().normalize())),
             uvs: (!mesh.uvs.is_empty()).then(|| vertices.map(|v| mesh.uvs[v].as_dvec2())),
             sides: mesh.sides,
             material: mesh.materials.get(i).map_or(mesh.material, |&m| m as usize),
@@ -90,6 +90,18 @@ impl Primitive for Triangle {
         let n = u * a + v * b + w * c;
         // Normals that cancel out leave the triangle's own.
         if n.length_squared() > 1e-12 { n.normalize() } else { self.normal }
+    }
+
+    /// The mean, weighed as normals are, of where the point comes to lie when it is moved up onto each tangent plane
+    /// that it is beneath.
+    fn seen_from(&self, point: DVec3, towards: DVec3) -> DVec3 {
+        let Some(normals) = self.normals else { return point };
+        let side = if self.shading_normal(point).dot(towards) < 0.0 { -1.0 } else { 1.0 };
+        let moved = normals.iter().zip(self.corners).map(|(n, corner)| {
+            let height = side * n.dot(point - corner);
+            if height < 0.0 { point - height * side * n } else { point }
+        });
+        moved.zip(self.weights(point)).map(|(place, weight)| weight * place).sum()
     }
 
     /// The longest edge.

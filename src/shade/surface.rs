@@ -7,11 +7,15 @@ use crate::scene::{Scene, with_primitive};
 /// The normal that primitive `id` is shaded by, on the side of the surface's own.
 #[inline(always)]
 pub fn shading_normal<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Vec3<L> {
-    if (scene.first.triangles..scene.first.quads).contains(&id) {
-        scene.triangles.shading_normal((id - scene.first.triangles) as usize, surface)
-    } else {
-        surface.normal
-    }
+    smooth(scene, id, surface).map_or(surface.normal, |[normal, _]| normal)
+}
+
+/// Where primitive `id` has vertex normals, that normal, and how far it is to where lights are seen from
+/// ([`crate::geometry::Triangles::smooth`]).
+#[inline(always)]
+pub fn smooth<L: Lanes>(scene: &Scene, id: u32, surface: &Surface<L>) -> Option<[Vec3<L>; 2]> {
+    let triangles = scene.first.triangles..scene.first.quads;
+    triangles.contains(&id).then(|| scene.triangles.smooth((id - triangles.start) as usize, surface)).flatten()
 }
 
 /// Primitive `id`'s surface near the points `p`, and its material.

@@ -1,8 +1,8 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
 use super::medium::{MediumStack, Passage};
-use super::spawn::Offsets;
-use super::surface::shading_normal;
+use super::spawn::{self, Offsets};
+use super::surface::smooth;
 use super::texture;
 use super::wave::Wave;
 use crate::geometry::{Mapping, Primitives, Surface};
@@ -21,6 +21,8 @@ pub struct Surfaces {
     /// Unit normals of the surfaces themselves, turned against the rays; written only where the plan has interpolated
     /// normals, and else the same as `normal`.
     pub geometric: [[f32; BATCH]; 3],
+    /// From where lights are seen; written only where the plan says that it is not the point.
+    pub raised: [[f32; BATCH]; 3],
     /// How far from the surface spawned rays start; below zero where nothing was hit.
     pub lift: [f32; BATCH],
     /// Diffuse colour times the ray's weight and what the mirror leaves of it.
@@ -70,6 +72,7 @@ impl Default for Surfaces {
             point: [[0.0; BATCH]; 3],
             normal: [[0.0; BATCH]; 3],
             geometric: [[0.0; BATCH]; 3],
+            raised: [[0.0; BATCH]; 3],
             lift: [-1.0; BATCH],
             color: [[0.0; BATCH]; 3],
             mirror: [0.0; BATCH],
@@ -93,8 +96,7 @@ struct Gathered<L> {
     specular: L,
     shininess: L,
     glossy: bool,
-    /// For shading; of account only in a rich scene, as is all that follows, and `own`.
-    smooth: Vec3<L>,
+    /// Of account only in a rich scene, as are the next, and `own`.
     transmission: L,
     additive: L,
 }
@@ -127,13 +129,11 @@ impl Surfaces {
             left &= !same.bits();
         }
         let behind = g.normal.dot(direction).gt(L::zero());
-        let mut normal = (-g.normal).select(behind, g.normal);
-        if C::ALL && scene.plan.smooth {
-            normal.store(&mut self.geometric, at);
-            normal = (-g.smooth).select(behind, g.smooth);
-        }
         g.point.store(&mut self.point, at);
-        normal.store(&mut self.normal, at);
+        (-g.normal).select(behind, g.normal).store(&mut self.normal, at);
+        if C::ALL && scene.plan.smooth {
+            self.smooth::<L>(scene, at, &ids, hit.found.bits());
+        }
         let lift = Offsets::of(&scene.plan.methods).lift(g.point, g.reach);
         lift.select(hit.found, L::splat(-1.0)).store(&mut self.lift[at..]);
         let weight = L::load(&wave.weight[at..]);
@@ -150,6 +150,33 @@ impl Surfaces {
             g.additive.store(&mut self.media.additive[at..]);
             self.media.pass::<L>(scene, wave, at, hit, !behind);
         }
+    }
+
+    /// Interpolates the normals of packet `at`, whose rays hit these ids where the bits say so, and finds from where they
+    /// see lights.
+    #[inline(never)]
+    fn smooth<L: Lanes>(&mut self, scene: &Scene, at: usize, ids: &[u32; MAX_LANES], found: u32) {
+        let (point, own) = (Vec3::<L>::load(&self.point, at), Vec3::<L>::load(&self.normal, at));
+        own.store(&mut self.geometric, at);
+        let (mut normal, mut raised, mut left) = (own, point, found);
+        while left != 0 {
+            let id = ids[left.trailing_zeros() as usize];
+            let same = L::id_mask(ids, id);
+            left &= !same.bits();
+            let surface = Surface { point, normal: own, reach: 0.0 };
+            if let Some([smooth, rise]) = smooth(scene, id, &surface) {
+                normal = smooth.select(same, normal);
+                raised = spawn::raise(point, rise, own).select(same, raised);
+            }
+        }
+        normal.store(&mut self.normal, at);
+        raised.store(&mut self.raised, at);
+    }
+
+    /// From where packet `at` sees lights.
+    #[inline(always)]
+    pub fn seen_from<L: Lanes, C: Contents>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        Vec3::load(if C::ALL && scene.plan.raised { &self.raised } else { &self.point }, at)
     }
 
     /// The unit normals of the surfaces themselves for packet `at`, turned against the rays.
@@ -221,7 +248,6 @@ impl<L: Lanes> Gathered<L> {
             specular: self.specular.select(mask, other.specular),
             shininess: self.shininess.select(mask, other.shininess),
             glossy: self.glossy | other.glossy,
-            smooth: self.smooth.select(mask, other.smooth),
             transmission: self.transmission.select(mask, other.transmission),
             additive: self.additive.select(mask, other.additive),
         }
@@ -232,7 +258,6 @@ impl<L: Lanes> Gathered<L> {
 #[inline(always)]
 fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
     let Painted { surface, material: m, color } = painted::<L, C>(scene, id, p);
-    let smooth = if C::ALL && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
     Gathered {
         point: surface.point,
         normal: surface.normal,
@@ -243,7 +268,6 @@ fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered
         specular: L::splat(m.specular),
         shininess: L::splat(m.shininess),
         glossy: m.specular > 0.0,
-        smooth,
         transmission: L::splat(m.transmission),
         additive: L::splat(f32::from(u8::from(m.additive))),
     }
