@@ -4,7 +4,9 @@
 mod common;
 
 use glam::{Vec3, vec3};
-use raypacket::geometry::methods::{Choice, NormalizeMethod, OffsetMethod, SphereMethod, TorusMethod, TriangleMethod};
+use raypacket::geometry::methods::{
+    Choice, NormalizeMethod, OffsetMethod, SphereMethod, TerminatorMethod, TorusMethod, TriangleMethod,
+};
 use raypacket::math::Lanes;
 use raypacket::render::{Camera, Film, Kernel, render};
 use raypacket::scene::{
@@ -54,6 +56,7 @@ fn choices() -> Vec<Choice> {
     all.extend(TorusMethod::ALL.iter().map(|&m| Choice::Torus(m)));
     all.extend(NormalizeMethod::ALL.iter().map(|&m| Choice::Normalize(m)));
     all.extend(OffsetMethod::ALL.iter().map(|&m| Choice::Offset(m)));
+    all.extend(TerminatorMethod::ALL.iter().map(|&m| Choice::Terminator(m)));
     all
 }
 

@@ -215,6 +215,7 @@ fn materials_and_skies_out_of_range() {
     material("ior = 0", "must be 0.1 to 10, got 0");
     material("absorption = [0, -1, 0]", "must be finite and 0 or more, got [0, -1, 0]");
     material("texture_size = 2", "only goes with texture");
+    material("texture_wrap = \"clamp\"", "only goes with texture");
     fault(
         "[materials.a]\nreflectance = 0.5\ntransmission = 0.625",
         "s.toml:3: materials.a.transmission: with reflectance at most 1, got 1.125",
@@ -297,7 +298,7 @@ fn unknown_keys() {
     );
     fault(
         "[materials.floor]\ndensity = 1",
-        "s.toml:2: materials.floor.density: unknown key, expected one of `color`, `checker`, `texture`, `texture_size`, `reflectance`, `transmission`, `ior`, `absorption`, `specular`, `shininess`",
+        "s.toml:2: materials.floor.density: unknown key, expected one of `color`, `checker`, `texture`, `texture_size`, `texture_wrap`, `reflectance`, `transmission`, `ior`, `absorption`, `specular`, `shininess`",
     );
     fault(
         "[materials.floor.checker]\nior = 1",

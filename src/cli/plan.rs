@@ -16,7 +16,8 @@ impl Display for PlanText<'_> {
         structure(plan, f)?;
         waves(plan, f)?;
         if plan.smooth {
-            writeln!(f, "normals     interpolated where a mesh has them")?;
+            let from = if plan.raised { "the tangent planes of vertices" } else { "the triangles, as asked for" };
+            writeln!(f, "normals     interpolated where a mesh has them; shadow rays start on {from}")?;
         }
         shadows(plan, f)?;
         others(&plan.methods, f)?;

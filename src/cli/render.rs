@@ -155,10 +155,20 @@ fn hits(args: &Args, description: &Description, scene: &Scene) -> PrimaryHits {
         }
         Tracer::Reference => {
             let hits = reference::hits(description, width, height);
+            let camera = reference::Camera::new(&description.camera, width as f64 / height as f64);
+            let ray = |x: f64, y: f64| camera.ray(x / width as f64, y / height as f64).1;
+            let view = ray(width as f64 / 2.0, height as f64 / 2.0);
+            let along = |i: usize| view.dot(ray((i % width) as f64 + 0.5, (i / width) as f64 + 0.5));
+            let normals = |normal: fn(&reference::Hit) -> glam::DVec3| {
+                hits.iter().map(|h| h.map_or([0.0; 3], |h| normal(&h).as_vec3().to_array())).collect()
+            };
+            let depth = |i: usize| hits[i].map_or(f64::INFINITY, |h| h.t);
             PrimaryHits {
-                t: hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t as f32)).collect(),
+                t: (0..hits.len()).map(|i| depth(i) as f32).collect(),
+                z: (0..hits.len()).map(|i| (depth(i) * along(i)) as f32).collect(),
                 primitive: hits.iter().map(|h| h.map_or(NONE, |h| h.primitive)).collect(),
-                normal: hits.iter().map(|h| h.map_or([0.0; 3], |h| h.normal.as_vec3().to_array())).collect(),
+                normal: normals(|h| h.normal),
+                shading_normal: normals(|h| h.shading_normal),
             }
         }
     }

@@ -26,7 +26,7 @@
 
 use super::axial::{self, Crossing, Hull, slab};
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
+use super::{Balls, Bounded, Cull, LaneHits, Mapping, Never, Number, Primitives, Sides, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 
 /// The least height, in differences of the radii: far below ε, and its square a normal number.
@@ -309,6 +309,11 @@ impl Primitives for Cones {
         let (half, across) = (L::splat(0.5), outer.select(wide, narrow));
         let side = [angle::turn(x, y), self.height(i, h) * L::splat(1.0 / self.length[i])];
         [x.mul_add(across, half).select(cap, side[0]), y.mul_add(across, half).select(cap, side[1])]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Mapping<L> {
+        let (tip, upright) = (self.radii[i][0] == 0.0, self.upright[i]);
+        Mapping::around([tip & !upright, tip & upright]).capped(self.local(i, surface.point).cap)
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -18,7 +18,7 @@ use super::face;
 pub use super::face::Aim;
 use super::frame::along;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, Footing, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Mapping, Never, Number, Primitives, Surface, Variant, columns};
 use crate::math::{LaneMask, Lanes, Vec3, map2, map3};
 use glam::DMat3;
 
@@ -254,6 +254,10 @@ impl Primitives for Cuboids {
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
         let [q, half] = self.own(i, surface.point);
         face::uv(Vec3::new(q.x / half.x, q.y / half.y, q.z / half.z), self.own_normal(i, surface))
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, _: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::face()
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

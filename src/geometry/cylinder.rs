@@ -21,7 +21,7 @@
 
 use super::axial::{self, Crossing, Hull, slab};
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Sides, Surface, columns};
+use super::{Balls, Bounded, Cull, LaneHits, Mapping, Never, Number, Primitives, Sides, Surface, columns};
 use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 
 /// Squared sine of the angle to the axis below which a ray is parallel to it: 2⁻⁶⁰.
@@ -232,6 +232,10 @@ impl Primitives for Cylinders {
         let (half, across) = (L::splat(0.5), L::splat(0.5 / self.radius[i]));
         let side = [angle::turn(x, y), h * L::splat(1.0 / self.length[i])];
         [x.mul_add(across, half).select(cap, side[0]), y.mul_add(across, half).select(cap, side[1])]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Mapping<L> {
+        Mapping::around([false; 2]).capped(self.on_cap(i, self.local(i, surface.point)))
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -18,7 +18,9 @@
 //! Edges belong to the disc, those of the hole too. A ray in its plane misses it; so does one that starts on it.
 
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, Footing, LaneHits, Never, Number, Primitives, Surface, axial, columns, flat};
+use super::{
+    Balls, Bounded, Cull, Footing, LaneHits, Mapping, Never, Number, Primitives, Surface, axial, columns, flat,
+};
 use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3};
 use glam::DVec3;
 
@@ -187,6 +189,10 @@ impl Primitives for Discs {
         let (inner, radius) = (self.inner[i], self.radius[i]);
         let outward = x.mul_add(x, y * y).sqrt() - L::splat(inner);
         [angle::turn(x, y), outward * L::splat(1.0 / (radius - inner))]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, i: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::around([self.inner[i] == 0.0, false])
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

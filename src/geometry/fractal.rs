@@ -33,7 +33,7 @@
 use super::face;
 pub use super::face::Aim;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Never, Number, Primitives, Surface, Variant, columns};
+use super::{Balls, Bounded, Cull, LaneHits, Mapping, Never, Number, Primitives, Surface, Variant, columns};
 use crate::math::{LaneMask, Lanes, Vec3, map2};
 
 /// ε, the unit roundoff.
@@ -265,6 +265,10 @@ impl Primitives for Fractals {
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
         let q = surface.point - Vec3::splat(self.center(i));
         face::uv(q * L::splat(1.0 / self.radius[i]), surface.normal)
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, _: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::face()
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -106,6 +106,16 @@ methods! {
     }
 }
 
+methods! {
+    /// Where shadow rays start that leave triangles with vertex normals ([`crate::shade`]).
+    TerminatorMethod {
+        /// On the surface that the vertices' tangent planes make.
+        TangentPlanes = "tangent_planes",
+        /// On the triangle.
+        None = "none",
+    }
+}
+
 impl NormalizeMethod {
     /// Newton's steps after the estimate; `None` for a root and a division.
     pub fn steps(self) -> Option<u32> {
@@ -131,6 +141,8 @@ pub struct Methods {
     pub normalize: NormalizeMethod,
     /// Where secondary rays start.
     pub offset: OffsetMethod,
+    /// Shadow rays from interpolated normals.
+    pub terminator: TerminatorMethod,
 }
 
 /// One choice, such as `sphere=geometric`.
@@ -146,6 +158,8 @@ pub enum Choice {
     Normalize(NormalizeMethod),
     /// Of the offset.
     Offset(OffsetMethod),
+    /// Of the shadow rays from interpolated normals.
+    Terminator(TerminatorMethod),
 }
 
 impl FromStr for Choice {
@@ -161,7 +175,12 @@ impl FromStr for Choice {
             "torus" => TorusMethod::find(name).map(Self::Torus),
             "normalize" => NormalizeMethod::find(name).map(Self::Normalize),
             "offset" => OffsetMethod::find(name).map(Self::Offset),
-            _ => return Err(format!("no kind `{kind}`; there are sphere, triangle, torus, normalize, offset")),
+            "terminator" => TerminatorMethod::find(name).map(Self::Terminator),
+            _ => {
+                return Err(format!(
+                    "no kind `{kind}`; there are sphere, triangle, torus, normalize, offset, terminator"
+                ));
+            }
         };
         choice.map_err(|message| format!("{kind}: {message}"))
     }
@@ -176,32 +195,30 @@ impl Methods {
             Choice::Torus(method) => self.torus = method,
             Choice::Normalize(method) => self.normalize = method,
             Choice::Offset(method) => self.offset = method,
+            Choice::Terminator(method) => self.terminator = method,
         }
         self
     }
 
     /// As choices.
-    pub fn choices(self) -> [Choice; 5] {
-        let Self { sphere, triangle, torus, normalize, offset } = self;
+    pub fn choices(self) -> [Choice; 6] {
+        let Self { sphere, triangle, torus, normalize, offset, terminator } = self;
         [
             Choice::Sphere(sphere),
             Choice::Triangle(triangle),
             Choice::Torus(torus),
             Choice::Normalize(normalize),
             Choice::Offset(offset),
+            Choice::Terminator(terminator),
         ]
     }
 }
 
 impl fmt::Display for Methods {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { sphere, triangle, torus, normalize, offset } = self;
-        let names = [sphere.name(), triangle.name(), torus.name(), normalize.name(), offset.name()];
-        write!(
-            f,
-            "sphere={} triangle={} torus={} normalize={} offset={}",
-            names[0], names[1], names[2], names[3], names[4]
-        )
+        let Self { sphere, triangle, torus, normalize, offset, terminator } = self;
+        write!(f, "sphere={} triangle={} torus={} ", sphere.name(), triangle.name(), torus.name())?;
+        write!(f, "normalize={} offset={} terminator={}", normalize.name(), offset.name(), terminator.name())
     }
 }
 
@@ -216,11 +233,12 @@ mod tests {
             .fold(Methods::default(), |methods, text| methods.with(text.parse().unwrap()));
         assert_eq!(
             chosen.to_string(),
-            "sphere=double triangle=watertight torus=monotone_newton normalize=division offset=none"
+            "sphere=double triangle=watertight torus=monotone_newton normalize=division offset=none \
+             terminator=tangent_planes"
         );
         let error = |text: &str| text.parse::<Choice>().unwrap_err();
         assert_eq!(error("sphere"), "expected KIND=METHOD, such as sphere=geometric");
-        assert_eq!(error("cube=x"), "no kind `cube`; there are sphere, triangle, torus, normalize, offset");
+        assert_eq!(error("cube=x"), "no kind `cube`; there are sphere, triangle, torus, normalize, offset, terminator");
         assert_eq!(error("sphere=cubic"), "sphere: no method `cubic`; there are stable, quadratic, geometric, double");
     }
 }

@@ -16,6 +16,7 @@ pub(crate) mod face;
 mod flat;
 pub mod fractal;
 mod frame;
+mod mapping;
 pub mod methods;
 pub(crate) mod numbers;
 pub mod plane;
@@ -33,6 +34,7 @@ pub use cylinder::Cylinders;
 pub use disc::Discs;
 pub use fractal::Fractals;
 pub use frame::frame;
+pub use mapping::Mapping;
 pub use plane::Planes;
 pub use quad::Quads;
 pub use sphere::Spheres;
@@ -222,6 +224,8 @@ pub trait Primitives: Sized {
     }
     /// Texture coordinates at a point of the surface.
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2];
+    /// Where those coordinates end.
+    fn mapping<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Mapping<L>;
     /// The coordinates that a checkerboard is laid in; 0 for the third where it is flat.
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L>;
 }

@@ -7,7 +7,7 @@
 //! A ray parallel to the plane, in it or not, misses it; so does one that starts on it.
 
 use super::numbers::numbers;
-use super::{Cull, Footing, LaneHits, Never, Number, Primitives, Surface, columns, frame};
+use super::{Cull, Footing, LaneHits, Mapping, Never, Number, Primitives, Surface, columns, frame};
 use crate::math::{LaneMask, Lanes, Vec3, map2};
 
 /// Planes, column by column.
@@ -133,6 +133,10 @@ impl Primitives for Planes {
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
         let Vec3 { x, y, .. } = self.checker(i, surface);
         [x, -y]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, _: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::endless()
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

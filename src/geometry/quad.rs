@@ -5,7 +5,7 @@
 //! misses it.
 
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, Footing, LaneHits, Never, Number, Primitives, Surface, columns, flat};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Mapping, Never, Number, Primitives, Surface, columns, flat};
 use crate::math::{LaneMask, Lanes, Vec3, map2, map3};
 
 /// Quads, column by column.
@@ -163,6 +163,10 @@ impl Primitives for Quads {
     #[inline(always)]
     fn uv<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> [L; 2] {
         flat::coordinates(self.corner_and_edges(i), self.unit[i], surface.point)
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, _: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::face()
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -17,7 +17,7 @@
 
 use super::methods::SphereMethod;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, Footing, LaneHits, Number, Primitives, Sides, Surface, Test, Variant};
+use super::{Balls, Bounded, Cull, Footing, LaneHits, Mapping, Number, Primitives, Sides, Surface, Test, Variant};
 use crate::math::{LaneMask, Lanes, MAX_LANES, Vec3, angle};
 
 /// Spheres, column by column.
@@ -169,6 +169,10 @@ impl Primitives for Spheres {
     fn uv<L: Lanes>(&self, _i: usize, surface: &Surface<L>) -> [L; 2] {
         let n = surface.normal;
         [angle::turn(n.x, n.z), angle::elevation(n.y, n.x.mul_add(n.x, n.z * n.z).sqrt())]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, _: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::around([true; 2])
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -44,7 +44,7 @@ pub use sphere_trace::sphere_trace;
 
 use super::methods::TorusMethod;
 use super::numbers::numbers;
-use super::{Balls, Bounded, Cull, LaneHits, Number, Primitives, Surface, Test, columns, frame, frame::along};
+use super::{Balls, Bounded, Cull, LaneHits, Mapping, Number, Primitives, Surface, Test, columns, frame, frame::along};
 use crate::math::roots::{Sample, Stretch, first_root};
 use crate::math::{LaneMask, Lanes, Vec3, angle, map2, map3, powf};
 use glam::DVec3;
@@ -253,6 +253,10 @@ impl Primitives for Tori {
         let q = self.checker(i, surface);
         let rho = q.x.mul_add(q.x, q.y * q.y).sqrt();
         [angle::turn(q.x, q.y), angle::turn(q.z, rho - L::splat(self.major[i]))]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, _: usize, _: &Surface<L>) -> Mapping<L> {
+        Mapping::endless()
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {

@@ -24,7 +24,7 @@
 use super::face::{self, between};
 use super::methods::TriangleMethod;
 use super::numbers::numbers;
-use super::{Bounded, Cull, Footing, LaneHits, Number, Primitives, Sides, Surface, Test, columns, flat};
+use super::{Bounded, Cull, Footing, LaneHits, Mapping, Number, Primitives, Sides, Surface, Test, columns, flat};
 use crate::math::{LaneMask, Lanes, NONE, Vec3, map3};
 use wide::f32x8;
 
@@ -42,7 +42,7 @@ pub struct Triangles {
     pub sides: Vec<Sides>,
     /// Indices into the scene's materials.
     pub material: Vec<u32>,
-    /// Normals at the corners; none where no triangle has any.
+    /// Unit normals at the corners; none where no triangle has any.
     pub normals: Attribute<glam::Vec3>,
     /// Texture coordinates at the corners; none where no triangle has any.
     pub uvs: Attribute<glam::Vec2>,
@@ -226,15 +226,34 @@ impl Triangles {
     /// that `surface` has, turned or not.
     #[inline(always)]
     pub fn shading_normal<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
-        let Some(normals) = self.normals.at(i) else { return surface.normal };
+        self.smooth(i, surface).map_or(surface.normal, |[normal, _]| normal)
+    }
+
+    /// Where there are vertex normals: that for shading, and how far it is from the point to the surface that the
+    /// vertices' tangent planes make, where that is on the side of `surface`'s normal.
+    ///
+    /// Hanika, *Hacking the Shadow Terminator*, Ray Tracing Gems II (2021), ch. 4: the point's projections onto the
+    /// tangent planes that it is beneath, interpolated as normals are. A point beneath none stays.
+    #[inline(always)]
+    pub fn smooth<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Option<[Vec3<L>; 2]> {
+        let normals = map3(self.normals.at(i)?, Vec3::splat);
         let [u, v] = self.barycentric(i, surface.point);
-        let [a, b, c] = map3(normals, Vec3::splat);
-        let n = c.mul_add(v, b.mul_add(u, a * (L::splat(1.0) - u - v)));
+        let weights = [L::splat(1.0) - u - v, u, v];
+        let [a, b, c] = normals;
+        let n = c.mul_add(v, b.mul_add(u, a * weights[0]));
         let length2 = n.dot(n);
-        let n = n * (L::splat(1.0) / length2.sqrt());
-        let n = (-n).select(n.dot(surface.normal).lt(L::zero()), n);
+        let unit = n * (L::splat(1.0) / length2.sqrt());
+        let other = n.dot(surface.normal).lt(L::zero());
         // Normals that cancel out leave the triangle's own.
-        n.select(length2.gt(L::splat(1e-12)), surface.normal)
+        let unit = (-unit).select(other, unit).select(length2.gt(L::splat(1e-12)), surface.normal);
+        let corners = map3(self.corners(i), Vec3::splat);
+        let mut rise = Vec3::splat(glam::Vec3::ZERO);
+        for k in 0..3 {
+            let normal = (-normals[k]).select(other, normals[k]);
+            let beneath = (corners[k] - surface.point).dot(normal).max(L::zero());
+            rise = normal.mul_add(beneath * weights[k], rise);
+        }
+        Some([unit, rise])
     }
 }
 
@@ -318,6 +337,10 @@ impl Primitives for Triangles {
         let w = L::splat(1.0) - u - v;
         let at = |a: f32, b: f32, c: f32| L::splat(c).mul_add(v, L::splat(b).mul_add(u, L::splat(a) * w));
         [at(a.x, b.x, c.x), at(a.y, b.y, c.y)]
+    }
+    #[inline(always)]
+    fn mapping<L: Lanes>(&self, i: usize, _: &Surface<L>) -> Mapping<L> {
+        if self.uvs.at(i).is_some() { Mapping::endless() } else { Mapping::face() }
     }
     #[inline(always)]
     fn checker<L: Lanes>(&self, i: usize, surface: &Surface<L>) -> Vec3<L> {
@@ -579,5 +602,31 @@ mod tests {
         assert_eq!(hit(UNIT, vec3(-1.0, 0.2, 1.0), V::X), None);
         assert_eq!(hit([V::ZERO, V::X, V::X * 2.0], vec3(0.5, 0.0, 1.0), V::NEG_Z), None);
         assert_eq!(hit([V::ONE; 3], vec3(1.0, 1.0, 3.0), V::NEG_Z), None);
+    }
+
+    /// A triangle on the unit circle whose normals lean outward by 30°: in its middle, each tangent plane is sin 30° above,
+    /// along its own normal, so that the mean is sin 30° cos 30° above.
+    #[test]
+    fn points_rise_to_the_tangent_planes() {
+        let corners = [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|turns: f64| {
+            let (y, x) = (turns * std::f64::consts::TAU).sin_cos();
+            glam::dvec3(x, y, 0.0)
+        });
+        let (sin, cos) = (0.5f64, 0.75f64.sqrt());
+        let mut triangles = Triangles::default();
+        triangles.push(corners.map(|c| c.as_vec3()), Sides::Both, 0);
+        triangles.normals.values = corners.iter().map(|c| (*c * sin + glam::dvec3(0.0, 0.0, cos)).as_vec3()).collect();
+        triangles.normals.set(0, [0, 1, 2]);
+        let rise = |normal: V, point: V| {
+            let surface = Surface { point: Vec3::<f32>::from(point), normal: normal.into(), reach: 0.0 };
+            triangles.smooth(0, &surface).map(|pair| pair.map(V::from)).unwrap()
+        };
+        let [normal, height] = rise(V::Z, V::ZERO);
+        assert!(normal.abs_diff_eq(V::Z, 1e-6) && height.abs_diff_eq(V::Z * (sin * cos) as f32, 1e-6), "{height}");
+        // From behind it is hollow, and at a corner there is nothing to rise to.
+        let [normal, height] = rise(V::NEG_Z, V::ZERO);
+        assert!(normal.abs_diff_eq(V::NEG_Z, 1e-6) && height == V::ZERO, "{height}");
+        let [normal, height] = rise(V::Z, V::X);
+        assert!(normal.abs_diff_eq(vec3(0.5, 0.0, cos as f32), 1e-6) && height.length() < 1e-6, "{normal} {height}");
     }
 }

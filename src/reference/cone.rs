@@ -1,5 +1,5 @@
 //! Cones and frusta about any axis, open or closed.
-use super::{Primitive, Primitives, axes, turn};
+use super::{Edge, Edges, FACE, Primitive, Primitives, around, axes, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 
@@ -182,6 +182,16 @@ impl Primitive for Cone {
             Part::Side => DVec2::new(turn(q.x, q.y), self.height(q) / self.length),
             Part::Narrow => 0.5 + q.truncate() / (2.0 * self.radii[0]),
             Part::Wide => 0.5 + q.truncate() / (2.0 * self.radii[1]),
+        }
+    }
+
+    fn edges(&self, point: DVec3) -> Edges {
+        let end = |radius: f64| if radius > 0.0 { Edge::End } else { Edge::Point };
+        let [narrow, wide] = self.radii.map(end);
+        match self.part(point) {
+            Part::Side if self.upright => around(wide, narrow),
+            Part::Side => around(narrow, wide),
+            _ => FACE,
         }
     }
 

@@ -1,5 +1,5 @@
 //! Boxes, aligned to the axes or turned.
-use super::{Primitive, Primitives};
+use super::{Edges, FACE, Primitive, Primitives};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -128,6 +128,10 @@ impl Primitive for Cuboid {
     fn uv(&self, point: DVec3) -> DVec2 {
         let (q, axis, side) = self.face(point);
         face_uv(q / self.half(), axis, side)
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        FACE
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

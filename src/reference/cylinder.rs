@@ -1,5 +1,5 @@
 //! Cylinders about any axis, open or closed.
-use super::{Primitive, Primitives, axes, turn};
+use super::{Edge, Edges, FACE, Primitive, Primitives, around, axes, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 
@@ -145,6 +145,10 @@ impl Primitive for Cylinder {
             Part::Side => DVec2::new(turn(q.x, q.y), q.z / self.length),
             _ => 0.5 + q.truncate() / (2.0 * self.radius),
         }
+    }
+
+    fn edges(&self, point: DVec3) -> Edges {
+        if matches!(self.part(point), Part::Side) { around(Edge::End, Edge::End) } else { FACE }
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

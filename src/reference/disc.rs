@@ -1,5 +1,5 @@
 //! Discs, with or without a hole.
-use super::{Primitive, Primitives, axes, turn};
+use super::{Edge, Edges, Primitive, Primitives, around, axes, turn};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -70,6 +70,10 @@ impl Primitive for Disc {
     fn uv(&self, point: DVec3) -> DVec2 {
         let q = self.local(point).truncate();
         DVec2::new(turn(q.x, q.y), (q.length() - self.inner) / (self.radius - self.inner))
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        around(if self.inner > 0.0 { Edge::End } else { Edge::Point }, Edge::End)
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

@@ -1,5 +1,5 @@
 //! Menger sponges.
-use super::cuboid::face_uv;
+use super::{Edges, FACE, cuboid::face_uv};
 use super::{Primitive, Primitives};
 use crate::scene;
 use glam::{DVec2, DVec3, IVec3};
@@ -171,6 +171,10 @@ impl Primitive for Fractal {
     fn uv(&self, point: DVec3) -> DVec2 {
         let (axis, _, side) = self.face(point);
         face_uv((point - self.center) / self.radius, axis, side)
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        FACE
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

@@ -44,6 +44,8 @@ pub struct Hit {
     pub primitive: u32,
     /// Unit geometric normal, turned against the ray.
     pub normal: DVec3,
+    /// Unit normal for shading, on the same side.
+    pub shading_normal: DVec3,
 }
 
 /// One primitive, whatever its kind.
@@ -62,14 +64,42 @@ trait Primitive: Debug + Send + Sync {
     fn shading_normal(&self, point: DVec3) -> DVec3 {
         self.normal(point)
     }
+    /// From where lights are seen at a point, on the side of `towards`.
+    fn seen_from(&self, point: DVec3, _towards: DVec3) -> DVec3 {
+        point
+    }
     /// The primitive's own size, 0 for a plane.
     fn extent(&self) -> f64;
     /// Index into the materials.
     fn material(&self) -> usize;
     /// Texture coordinates at a point of the surface.
     fn uv(&self, point: DVec3) -> DVec2;
+    /// What comes at the ends of those coordinates.
+    fn edges(&self, point: DVec3) -> Edges;
     /// The coordinates a checkerboard is laid in; 0 for the third where it is flat.
     fn checker(&self, point: DVec3) -> DVec3;
+}
+
+/// What comes where texture coordinates are 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Edge {
+    /// Nothing: they go on, or around.
+    None,
+    /// The surface, or this part of it, ends.
+    End,
+    /// All of the other coordinate comes together in a point.
+    Point,
+}
+
+/// Those of u at 0 and 1, then those of v.
+type Edges = [[Edge; 2]; 2];
+
+/// On a face.
+const FACE: Edges = [[Edge::End; 2]; 2];
+
+/// Around a body, with its lower and upper end.
+fn around(lower: Edge, upper: Edge) -> Edges {
+    [[Edge::None; 2], [lower, upper]]
 }
 
 /// An element of a description: a primitive, or a mesh of them.
@@ -129,8 +159,10 @@ impl Tracer {
             }
         });
         nearest.map(|id: usize| {
-            let normal = self.primitives[id].normal(origin + t_max * direction);
-            Hit { t: t_max, primitive: id as u32, normal: turned(normal, direction) }
+            let (primitive, point) = (&self.primitives[id], origin + t_max * direction);
+            let normal = turned(primitive.normal(point), direction);
+            let shading_normal = turned(primitive.shading_normal(point), -normal);
+            Hit { t: t_max, primitive: id as u32, normal, shading_normal }
         })
     }
 

@@ -1,5 +1,5 @@
 //! The plane p·n + D = 0, seen from both sides.
-use super::{Primitive, Primitives, axes};
+use super::{Edge, Edges, Primitive, Primitives, axes};
 use crate::scene;
 use glam::{DVec2, DVec3};
 
@@ -56,6 +56,10 @@ impl Primitive for Plane {
     fn uv(&self, point: DVec3) -> DVec2 {
         let DVec3 { x, y, .. } = self.checker(point);
         DVec2::new(x, -y)
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        [[Edge::None; 2]; 2]
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

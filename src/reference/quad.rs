@@ -1,5 +1,5 @@
 //! Parallelograms.
-use super::{Primitive, Primitives, axes};
+use super::{Edges, FACE, Primitive, Primitives, axes};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -62,6 +62,10 @@ impl Primitive for Quad {
 
     fn uv(&self, point: DVec3) -> DVec2 {
         (self.coordinates * (point - self.corner)).truncate()
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        FACE
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

@@ -41,6 +41,8 @@ struct Way<'a> {
 struct Point<'a> {
     /// Exactly on the surface but for rounding.
     position: DVec3,
+    /// From where it sees lights.
+    raised: DVec3,
     /// Unit normal of the surface, turned against the ray.
     normal: DVec3,
     /// Unit normal for shading, on the same side.
@@ -203,17 +205,19 @@ impl Tracer {
         let material = &self.materials[primitive.material()];
         let outward = primitive.normal(position);
         let normal = turned(outward, direction);
-        let smooth = primitive.shading_normal(position);
-        let smooth = if smooth.dot(normal) < 0.0 { -smooth } else { smooth };
+        let smooth = turned(primitive.shading_normal(position), -normal);
         let base = match material.pigment {
             Pigment::Color(color) => color.as_dvec3(),
             Pigment::Checker { colors, size } => checker(colors, primitive.checker(position) / f64::from(size)),
-            Pigment::Texture { texture, size } => {
-                texture::sample(&self.textures[texture], primitive.uv(position) / f64::from(size))
+            Pigment::Texture { texture, size, wrap } => {
+                let [u, v] = primitive.uv(position).to_array();
+                let edges = primitive.edges(position);
+                texture::sample(&self.textures[texture], [u, v], edges, f64::from(size), wrap)
             }
         };
         Some(Point {
             position,
+            raised: primitive.seen_from(position, normal),
             normal,
             smooth,
             front: outward.dot(direction) <= 0.0,
@@ -228,10 +232,10 @@ impl Tracer {
     /// The radiance that one light adds: E (base n·l + specular max(0, r·l)^shininess), unless something is in the way.
     fn direct(&self, light: &Light, point: &Point<'_>, mirrored: DVec3, rounding: &Rounding) -> DVec3 {
         let position = light.position.as_dvec3();
-        let to_light = position - point.position;
+        let to_light = position - point.raised;
         let Some(l) = to_light.try_normalize() else { return DVec3::ZERO };
         let cosine = point.smooth.dot(l);
-        if cosine <= 0.0 || point.normal.dot(l) <= 0.0 || self.shadowed(point, position, rounding) {
+        if cosine <= 0.0 || self.shadowed(point, position, rounding) {
             return DVec3::ZERO;
         }
         let power = light.power.as_dvec3();
@@ -243,7 +247,7 @@ impl Tracer {
 
     /// Whether anything lies between the surface and a light, the two ends left out.
     fn shadowed(&self, point: &Point<'_>, light: DVec3, rounding: &Rounding) -> bool {
-        let start = point.lifted(rounding, 1.0);
+        let start = point.raised + (point.lifted(rounding, 1.0) - point.position);
         let (direction, distance) = (light - start).normalize_and_length();
         // A surface through the light itself does not block it.
         let slack = rounding.lift * (distance + light.length());

@@ -1,5 +1,5 @@
 //! The sphere |p − c| = r.
-use super::{Primitive, Primitives, turn};
+use super::{Edge, Edges, Primitive, Primitives, around, turn};
 use crate::scene::{self, Sides};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -87,6 +87,10 @@ impl Primitive for Sphere {
     fn uv(&self, point: DVec3) -> DVec2 {
         let n = self.normal(point);
         DVec2::new(turn(n.x, n.z), 0.5 + n.y.clamp(-1.0, 1.0).asin() / PI)
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        around(Edge::Point, Edge::Point)
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

@@ -1,5 +1,5 @@
 //! Tori, in units of the major radius about the centre, along their own axes.
-use super::{Primitive, Primitives, axes, turn};
+use super::{Edge, Edges, Primitive, Primitives, axes, turn};
 use crate::scene;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -105,6 +105,10 @@ impl Primitive for Torus {
     fn uv(&self, point: DVec3) -> DVec2 {
         let q = self.local(point);
         DVec2::new(turn(q.x, q.y), turn(q.z, q.truncate().length() - self.major))
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        [[Edge::None; 2]; 2]
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

@@ -1,5 +1,5 @@
 //! Triangles.
-use super::{Primitive, Primitives, axes};
+use super::{Edge, Edges, FACE, Primitive, Primitives, axes};
 use crate::scene::{Mesh, Sides};
 use glam::{DVec2, DVec3};
 
@@ -8,7 +8,7 @@ pub(super) struct Triangle {
     corners: [DVec3; 3],
     /// Unit, (v1 − v0) × (v2 − v0); zero when the triangle has no area.
     normal: DVec3,
-    /// At the corners.
+    /// At the corners, unit.
     normals: Option<[DVec3; 3]>,
     uvs: Option<[DVec2; 3]>,
     sides: Sides,
@@ -24,7 +24,7 @@ impl Triangle {
         Self {
             corners,
             normal: (b - a).cross(c - a).normalize_or_zero(),
-            normals: (!mesh.normals.is_empty()).then(|| vertices.map(|v| mesh.normals[v].as_dvec3())),
+            normals: (!mesh.normals.is_empty()).then(|| vertices.map(|v| mesh.normals[v].as_dvec3().normalize())),
             uvs: (!mesh.uvs.is_empty()).then(|| vertices.map(|v| mesh.uvs[v].as_dvec2())),
             sides: mesh.sides,
             material: mesh.materials.get(i).map_or(mesh.material, |&m| m as usize),
@@ -100,6 +100,18 @@ impl Primitive for Triangle {
         if n.length_squared() > 1e-12 { n.normalize() } else { self.normal }
     }
 
+    /// The mean, weighed as normals are, of where the point comes to lie when it is moved up onto each tangent plane
+    /// that it is beneath.
+    fn seen_from(&self, point: DVec3, towards: DVec3) -> DVec3 {
+        let Some(normals) = self.normals else { return point };
+        let side = if self.shading_normal(point).dot(towards) < 0.0 { -1.0 } else { 1.0 };
+        let moved = normals.iter().zip(self.corners).map(|(n, corner)| {
+            let height = side * n.dot(point - corner);
+            if height < 0.0 { point - height * side * n } else { point }
+        });
+        moved.zip(self.weights(point)).map(|(place, weight)| weight * place).sum()
+    }
+
     /// The longest edge.
     fn extent(&self) -> f64 {
         let [a, b, c] = self.corners;
@@ -114,6 +126,10 @@ impl Primitive for Triangle {
         let [a, b, c] = self.uvs.unwrap_or([DVec2::ZERO, DVec2::X, DVec2::Y]);
         let [u, v, w] = self.weights(point);
         u * a + v * b + w * c
+    }
+
+    fn edges(&self, _point: DVec3) -> Edges {
+        if self.uvs.is_some() { [[Edge::None; 2]; 2] } else { FACE }
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

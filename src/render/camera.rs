@@ -63,6 +63,11 @@ impl Camera {
         (self.eye.as_dvec3() + self.corner + self.down).as_vec3()
     }
 
+    /// V, the unit direction straight ahead.
+    pub fn view(&self) -> DVec3 {
+        self.across.cross(self.down).normalize()
+    }
+
     /// Unit direction of the ray through p0 + u (p1 − p0) + v (p2 − p0).
     pub fn direction(&self, u: f32, v: f32) -> Vec3 {
         (self.corner + self.across * f64::from(u) + self.down * f64::from(v)).normalize().as_vec3()

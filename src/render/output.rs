@@ -3,8 +3,8 @@
 //! | picture | PNG, 8 bits | EXR, `f32` |
 //! |---|---|---|
 //! | film | sRGB through [`tone_map`] | linear RGB |
-//! | [`Aov::Depth`] | grey by log t: nearest white, farthest dark grey; black where nothing is | t in R, G and B; infinite where nothing is |
-//! | [`Aov::Normal`] | 0.5 + 0.5 n | n; zero where nothing is |
+//! | [`Aov::Depth`], [`Aov::DepthZ`] | grey by its logarithm: nearest white, farthest dark grey; black where nothing is | `Z`; infinite where nothing is |
+//! | [`Aov::Normal`], [`Aov::GeometricNormal`] | 0.5 + 0.5 n | n in `N.X`, `N.Y` and `N.Z`; zero where nothing is |
 //! | [`Aov::Primitive`] | a colour for each id; black where nothing is | the id in R, G and B; −1 where nothing is |
 //!
 //! Depth is shown on a logarithmic scale, as a floor that runs to the horizon would leave all else white
@@ -42,20 +42,24 @@ impl Format {
 /// A quantity that can be written instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
-    /// The distance from the eye.
+    /// The distance from the eye, along the ray.
     Depth,
-    /// The shading normal.
+    /// The distance from the eye along the view: that of the plane across it.
+    DepthZ,
+    /// The normal for shading, interpolated where a mesh has vertex normals.
     Normal,
+    /// The surface's own.
+    GeometricNormal,
     /// Which primitive is seen.
     Primitive,
 }
 
 impl Aov {
     /// All of them.
-    pub const ALL: [Aov; 3] = [Aov::Depth, Aov::Normal, Aov::Primitive];
-    /// `depth`, `normal`, `primitive`.
+    pub const ALL: [Aov; 5] = [Aov::Depth, Aov::DepthZ, Aov::Normal, Aov::GeometricNormal, Aov::Primitive];
+    /// `depth`, `depth_z`, `normal`, `geometric_normal`, `primitive`.
     pub fn name(self) -> &'static str {
-        ["depth", "normal", "primitive"][self as usize]
+        ["depth", "depth_z", "normal", "geometric_normal", "primitive"][self as usize]
     }
 }
 
@@ -69,7 +73,7 @@ pub fn write_film(film: &Film, format: Format, target: &Target) -> Result<(), Fi
             let pixels: Vec<u32> = film.pixels.iter().map(|&rgb| tone_map(rgb)).collect();
             write_display(&pixels, film.width, target)
         }
-        Format::Exr => target.write(|to| exr(to, &film.pixels, film.width)),
+        Format::Exr => target.write(|to| exr_colors(to, &film.pixels, film.width)),
     }
 }
 
@@ -99,19 +103,23 @@ pub fn write_aov(hits: &PrimaryHits, aov: Aov, width: usize, format: Format, tar
         Format::Png => {
             let pixels = match aov {
                 Aov::Depth => grey_depth(&hits.t),
-                Aov::Normal => hits.normal.iter().map(|n| n.map(|x| unit_to_byte(0.5 + 0.5 * x))).collect(),
+                Aov::DepthZ => grey_depth(&hits.z),
+                Aov::Normal => unit_vectors(&hits.shading_normal),
+                Aov::GeometricNormal => unit_vectors(&hits.normal),
                 Aov::Primitive => hits.primitive.iter().map(|&id| id_color(id)).collect(),
             };
             target.write(|to| png(to, &pixels, width))
         }
-        Format::Exr => {
-            let pixels = match aov {
-                Aov::Depth => hits.t.iter().map(|&t| [t; 3]).collect(),
-                Aov::Normal => hits.normal.clone(),
-                Aov::Primitive => hits.primitive.iter().map(|&id| [id_number(id); 3]).collect(),
-            };
-            target.write(|to| exr(to, &pixels, width))
-        }
+        Format::Exr => target.write(|to| match aov {
+            Aov::Depth => exr_numbers(to, [("Z", hits.t.clone())], width),
+            Aov::DepthZ => exr_numbers(to, [("Z", hits.z.clone())], width),
+            Aov::Normal => exr_numbers(to, normals(&hits.shading_normal), width),
+            Aov::GeometricNormal => exr_numbers(to, normals(&hits.normal), width),
+            Aov::Primitive => {
+                let ids: Vec<_> = hits.primitive.iter().map(|&id| [id_number(id); 3]).collect();
+                exr_colors(to, &ids, width)
+            }
+        }),
     }
 }
 
@@ -119,8 +127,36 @@ fn png(to: &mut (impl Write + Seek), pixels: &[[u8; 3]], width: usize) -> io::Re
     encode(PngEncoder::new(to), bytemuck::cast_slice(pixels), width, pixels.len(), ExtendedColorType::Rgb8)
 }
 
-fn exr(to: &mut (impl Write + Seek), pixels: &[[f32; 3]], width: usize) -> io::Result<()> {
+fn exr_colors(to: &mut (impl Write + Seek), pixels: &[[f32; 3]], width: usize) -> io::Result<()> {
     encode(OpenExrEncoder::new(to), bytemuck::cast_slice(pixels), width, pixels.len(), ExtendedColorType::Rgb32F)
+}
+
+/// Named channels.
+fn exr_numbers<const N: usize>(
+    to: &mut (impl Write + Seek),
+    channels: [(&str, Vec<f32>); N],
+    width: usize,
+) -> io::Result<()> {
+    use exr::prelude::*;
+    let height = height(channels.first().map_or(0, |(_, numbers)| numbers.len()), width)?;
+    let channels = channels.into_iter().map(|(name, numbers)| AnyChannel::new(name, FlatSamples::F32(numbers)));
+    let picture = Image::from_channels((width, height), AnyChannels::sort(channels.collect()));
+    picture.write().to_buffered(to).map_err(io::Error::other)
+}
+
+/// The channels of unit vectors.
+fn normals(vectors: &[[f32; 3]]) -> [(&'static str, Vec<f32>); 3] {
+    let column = |axis: usize| vectors.iter().map(|v| v[axis]).collect();
+    [("N.X", column(0)), ("N.Y", column(1)), ("N.Z", column(2))]
+}
+
+/// The number of rows that so many pixels make.
+fn height(pixels: usize, width: usize) -> io::Result<usize> {
+    let height = pixels.checked_div(width).unwrap_or(0);
+    if height == 0 || width * height != pixels {
+        return Err(io::Error::other(format!("{pixels} pixels do not make rows of {width}")));
+    }
+    Ok(height)
 }
 
 fn encode(
@@ -130,10 +166,7 @@ fn encode(
     pixels: usize,
     color: ExtendedColorType,
 ) -> io::Result<()> {
-    let height = pixels.checked_div(width).unwrap_or(0);
-    if height == 0 || width * height != pixels {
-        return Err(io::Error::other(format!("{pixels} pixels do not make rows of {width}")));
-    }
+    let height = height(pixels, width)?;
     let side = |pixels: usize| u32::try_from(pixels).map_err(io::Error::other);
     encoder.write_image(bytes, side(width)?, side(height)?, color).map_err(io::Error::other)
 }
@@ -147,6 +180,11 @@ fn split(pixel: u32) -> [u8; 3] {
 /// 0..1 to 0..255, rounded and clamped; NaN to 0.
 fn unit_to_byte(x: f32) -> u8 {
     (x * 255.0).round() as u8
+}
+
+/// Unit vectors as colours, zero as grey.
+fn unit_vectors(vectors: &[[f32; 3]]) -> Vec<[u8; 3]> {
+    vectors.iter().map(|n| n.map(|x| unit_to_byte(0.5 + 0.5 * x))).collect()
 }
 
 /// Nearest white, farthest a fifth of it, by log t; nothing (an infinite t) black.
@@ -230,18 +268,34 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let hits = PrimaryHits {
             t: vec![2.0, f32::INFINITY],
+            z: vec![1.5, f32::INFINITY],
             primitive: vec![5, NONE],
             normal: vec![[0.0, 1.0, -1.0], [0.0; 3]],
+            shading_normal: vec![[1.0, 0.0, -0.2], [0.0; 3]],
         };
-        let open = |aov: Aov, name: &str| {
+        let write = |aov: Aov, name: &str| {
             let path = folder.path().join(name);
             write_aov(&hits, aov, 2, Format::of(&path).unwrap(), &Target::new(&path).unwrap()).unwrap();
-            image::open(path).unwrap()
+            path
         };
-        assert_eq!(open(Aov::Normal, "n.png").into_rgb8().as_raw()[..], [128, 255, 0, 128, 128, 128]);
-        assert_eq!(open(Aov::Normal, "n.exr").into_rgb32f().as_raw()[..3], [0.0, 1.0, -1.0]);
-        assert_eq!(open(Aov::Depth, "d.png").into_rgb8().as_raw()[..], [255, 255, 255, 0, 0, 0]);
-        assert_eq!(open(Aov::Depth, "d.exr").into_rgb32f().as_raw()[2..4], [2.0, f32::INFINITY]);
+        let open = |aov: Aov, name: &str| image::open(write(aov, name)).unwrap();
+        assert_eq!(open(Aov::GeometricNormal, "g.png").into_rgb8().as_raw()[..], [128, 255, 0, 128, 128, 128]);
+        assert_eq!(open(Aov::Normal, "n.png").into_rgb8().as_raw()[..], [255, 128, 102, 128, 128, 128]);
+        for aov in [Aov::Depth, Aov::DepthZ] {
+            assert_eq!(open(aov, "d.png").into_rgb8().as_raw()[..], [255, 255, 255, 0, 0, 0]);
+        }
+        // As compositors read them: by name, and every number.
+        let named = |aov: Aov| {
+            let layer = exr::prelude::read_first_flat_layer_from_file(write(aov, "a.exr")).unwrap().layer_data;
+            assert_eq!(layer.size, exr::math::Vec2(2, 1));
+            let channels = layer.channel_data.list.into_iter();
+            channels.map(|c| (c.name.to_string(), c.sample_data.values_as_f32().collect())).collect::<Vec<_>>()
+        };
+        let axes = |x: [f32; 2], y, z| [("N.X", x), ("N.Y", y), ("N.Z", z)].map(|(n, c)| (n.to_owned(), c.to_vec()));
+        assert_eq!(named(Aov::Depth), [("Z".to_owned(), vec![2.0, f32::INFINITY])]);
+        assert_eq!(named(Aov::DepthZ), [("Z".to_owned(), vec![1.5, f32::INFINITY])]);
+        assert_eq!(named(Aov::Normal), axes([1.0, 0.0], [0.0, 0.0], [-0.2, 0.0]));
+        assert_eq!(named(Aov::GeometricNormal), axes([0.0, 0.0], [1.0, 0.0], [-1.0, 0.0]));
         assert_eq!(open(Aov::Primitive, "p.exr").into_rgb32f().as_raw()[2..4], [5.0, -1.0]);
         assert_eq!(open(Aov::Primitive, "p.png").into_rgb8().as_raw()[3..], [0; 3]);
     }

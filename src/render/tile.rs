@@ -11,7 +11,7 @@ use super::kernel::with_lanes;
 use super::{Camera, Kernel, Tone};
 use crate::math::{BATCH, HitBatch, Lanes, MAX_LANES, NONE, RayBatch, Vec3, map2};
 use crate::scene::Scene;
-use crate::shade::{Counts, Observer, Stage, Workspace, facing_normal, trace_waves};
+use crate::shade::{Counts, Observer, Stage, Workspace, facing_normals, trace_waves};
 use crate::trace::{Scratch, intersect};
 
 /// Pixels along a tile's edge.
@@ -160,18 +160,23 @@ pub fn render_display_while(
 /// The nearest hits of the pixel-centre rays, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrimaryHits {
-    /// Distance; infinite where nothing is hit.
+    /// Distance along the ray; infinite where nothing is hit.
     pub t: Vec<f32>,
+    /// Distance along the camera's view; infinite where nothing is hit.
+    pub z: Vec<f32>,
     /// Primitive id; [`NONE`] where nothing is hit.
     pub primitive: Vec<u32>,
-    /// Unit normal, turned against the ray; zero where nothing is hit.
+    /// Unit normal of the surface itself, turned against the ray; zero where nothing is hit.
     pub normal: Vec<[f32; 3]>,
+    /// Unit normal for shading, on the same side; zero where nothing is hit.
+    pub shading_normal: Vec<[f32; 3]>,
 }
 
 /// Traces the pixel-centre rays only, in the caller's rayon pool.
 pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize, height: usize) -> PrimaryHits {
     let grid = Grid::new(camera, width, height);
-    let mut hits = vec![(f32::INFINITY, NONE, [0.0; 3]); width * height];
+    let view = camera.view();
+    let mut hits = vec![(f32::INFINITY, f32::INFINITY, NONE, [[0.0; 3]; 2]); width * height];
     over_tiles(&mut hits, width, |work, first, out| {
         with_lanes!(kernel, traced(scene, &grid, first, work));
         let rays = &work.shading.primary.rays;
@@ -180,15 +185,19 @@ pub fn primary_hits(scene: &Scene, camera: &Camera, kernel: Kernel, width: usize
             let direction = glam::Vec3::from_array([0, 1, 2].map(|axis| rays.direction[axis][i]));
             // Rays beyond the picture's edge have no answer of their own.
             let known = rays.t_max[i] >= 0.0;
-            let normal = if known { facing_normal(scene, id, rays.first_origin(), direction, t) } else { [0.0; 3] };
-            *out = (t, id, normal);
+            let normals =
+                if known { facing_normals(scene, id, rays.first_origin(), direction, t) } else { [[0.0; 3]; 2] };
+            let z = f64::from(t) * direction.as_dvec3().dot(view);
+            *out = (t, z as f32, id, normals);
         }
         Counts::default()
     });
     PrimaryHits {
         t: hits.iter().map(|h| h.0).collect(),
-        primitive: hits.iter().map(|h| h.1).collect(),
-        normal: hits.iter().map(|h| h.2).collect(),
+        z: hits.iter().map(|h| h.1).collect(),
+        primitive: hits.iter().map(|h| h.2).collect(),
+        normal: hits.iter().map(|h| h.3[0]).collect(),
+        shading_normal: hits.iter().map(|h| h.3[1]).collect(),
     }
 }
 

@@ -22,7 +22,7 @@ macro_rules! builtin {
     };
 }
 
-static BUILTINS: [Builtin; 10] = [
+static BUILTINS: [Builtin; 11] = [
     builtin!("classic", "mirrors and coloured spheres on a checkerboard, under two coloured lights"),
     builtin!("flake", "a sphereflake: 7,381 partly mirrored spheres on a floor"),
     builtin!("hall", "spheres between two facing mirrors, twelve reflections deep"),
@@ -36,6 +36,7 @@ static BUILTINS: [Builtin; 10] = [
     builtin!("sky", "a panorama all around, seen directly, in mirrors and through glass"),
     builtin!("sponge", "a Menger sponge of four iterations"),
     builtin!("lattice", "a diamond crystal of 265 spheres and 460 cylinders over a mirror"),
+    builtin!("vase", "coarse meshes that are shaded smoothly: a vase, and balls of clay, silver and glass"),
 ];
 
 /// The built-in scenes.

@@ -134,19 +134,19 @@ fn what_cannot_be_loaded_is_said_in_one_line() {
     for (name, message) in [
         (
             "nowhere",
-            "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+            "nowhere: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice, vase)",
         ),
         (
             "",
-            ": no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+            ": no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice, vase)",
         ),
         (
             "a\nb",
-            "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+            "a\\nb: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice, vase)",
         ),
         (
             "x.png",
-            "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice)",
+            "x.png: no such file, nor a built-in scene (classic, flake, hall, cosmos, primitives, glass, textures, sky, sponge, lattice, vase)",
         ),
         ("bunny.obj", "bunny.obj: No such file or directory (os error 2)"),
         ("balls.NFF", "balls.NFF: No such file or directory (os error 2)"),

@@ -106,7 +106,7 @@ pub(super) fn surface(material: &Material, textures: usize) -> Result<(), Invali
             }
             rule(positive(*size), || key("checker.size"))?;
         }
-        Pigment::Texture { texture, size } => {
+        Pigment::Texture { texture, size, .. } => {
             let exists = *texture < textures;
             rule(require(exists, || format!("texture {texture} of {textures} does not exist")), || key("texture"))?;
             rule(positive(*size), || key("texture_size"))?;

@@ -3,10 +3,13 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use glam::Vec3;
+
 use super::in_tree::InTree;
 use super::kinds::Kind;
 use super::media::{Medium, media};
 use super::plan::Structure;
+use super::poles;
 use super::{Description, Invalid, Light, Material, Mesh, Plan, Settings, Sky, Texture, check};
 use crate::bvh::{Aabb, Bvh};
 use crate::geometry::methods::Choice;
@@ -67,6 +70,8 @@ macro_rules! scene {
             pub medium_of: Vec<u16>,
             /// Texture images, by index.
             pub textures: Vec<Arc<Texture>>,
+            /// A texture's colours where v is 0 and 1 and these are single points, by material.
+            pub poles: Vec<[Vec3; 2]>,
             /// Point lights.
             pub lights: Vec<Light>,
             /// The radiance along rays that hit nothing.
@@ -114,6 +119,7 @@ macro_rules! scene {
                     media,
                     medium_of,
                     textures: description.textures.clone(),
+                    poles: poles::poles(&description.materials, &description.textures),
                     lights: description.lights.clone(),
                     sky: description.sky.clone(),
                     settings: description.settings,

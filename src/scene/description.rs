@@ -129,8 +129,8 @@ pub struct Dome {
 
 /// An image for surfaces, with 8 bits a channel on the sRGB curve.
 ///
-/// At (u, v): column u·width, row (1 − v)·height, so that v runs upward, repeating in both; bilinear between texel
-/// centres, in linear light.
+/// At (u, v): column u·width, row (1 − v)·height, so that v runs upward; bilinear between texel
+/// centres, in linear light. [`Wrap`] says what is beyond its borders.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// Pixels across, at least 1.
@@ -222,5 +222,22 @@ pub enum Pigment {
         texture: usize,
         /// The length of one repeat in u and v, above 0.
         size: f32,
+        /// What it shows beyond its borders.
+        wrap: Wrap,
     },
+}
+
+/// What a texture shows beyond its borders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// It repeats where a primitive's coordinates go on: on a plane, with vertices' (u, v), around a body in u and around
+    /// a torus in both. Where they end, at 0 and 1 on all else, it is not mixed with what a repeat would show there: the
+    /// texels that lie within by half or more go on. An end that is a single point has one colour, to which that of
+    /// the last half texel changes: the mean of the texels around it.
+    #[default]
+    Ends,
+    /// It repeats.
+    Repeat,
+    /// There is one of it, from 0 to `size`, and its border goes on.
+    Clamp,
 }

@@ -11,6 +11,7 @@ mod in_tree;
 mod kinds;
 mod media;
 mod plan;
+mod poles;
 mod primitive;
 #[cfg(feature = "files")]
 mod read;
@@ -26,6 +27,7 @@ pub use description::*;
 pub use kinds::*;
 pub use media::Medium;
 pub use plan::{Plan, ShadowStart, Structure, Tested};
+pub(crate) use poles::texels;
 pub use primitive::{Primitive, PrimitiveKind};
 #[cfg(feature = "files")]
 pub use read::*;

@@ -6,7 +6,7 @@ use super::choose::{self, Chosen};
 use super::kinds::{KINDS, Kind, KindName, each_kind};
 use super::{CompileOptions, Description, Material, Sides};
 use crate::bvh::Aabb;
-use crate::geometry::methods::{Methods, SphereMethod, TriangleMethod};
+use crate::geometry::methods::{Methods, SphereMethod, TerminatorMethod, TriangleMethod};
 
 /// Where a light's shadow rays start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +38,9 @@ pub struct Plan {
     pub rare: bool,
     /// Whether any triangle has vertex normals.
     pub smooth: bool,
+    /// Whether shadow rays start on the surface that the tangent planes of vertices make: where there are vertex normals
+    /// and no other method was asked for.
+    pub raised: bool,
     /// Whether anything is rare, smooth or transmits: all that a plain scene is traced and shaded without.
     pub rich: bool,
     /// How many segments a path may have: 1 where nothing reflects or transmits, else the scene's `max_depth`.
@@ -108,6 +111,7 @@ impl Plan {
             structure,
             rare,
             smooth,
+            raised: smooth && methods.terminator == TerminatorMethod::TangentPlanes,
             rich: rare || smooth || glasses > 0,
             waves: if mirrors + glasses == 0 { 1 } else { description.settings.max_depth },
             refracts: glasses > 0,

@@ -99,13 +99,12 @@ impl Lighting {
             surfaces,
             -1.0,
             #[inline(always)]
-            |_, at, point, normal, lift| {
-                let ray = spawn::shadow_from_light(&offsets, Vec3::splat(position), point, normal, lift);
+            |point, normal, lift| spawn::shadow_from_light(&offsets, Vec3::splat(position), point, normal, lift),
+            #[inline(always)]
+            |_, _, ray, lit| {
                 if wanted {
-                    let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
-                    directions.include(ray.direction, active);
+                    directions.include(ray.direction, lit);
                 }
-                ray
             },
         );
         (count, wanted.then(|| Bounds::new(Span::at(position), directions.span())))
@@ -131,22 +130,21 @@ impl Lighting {
             surfaces,
             1.0,
             #[inline(always)]
-            |rays, at, point, normal, lift| {
-                let ray = spawn::shadow_from_point(&offsets, position, point, normal, lift);
+            |point, normal, lift| spawn::shadow_from_point(&offsets, position, point, normal, lift),
+            #[inline(always)]
+            |rays, at, ray, lit| {
                 if wanted {
-                    let active = L::load(&surfaces.lift[at..]).ge(L::zero()) & ray.cosine.gt(L::zero());
-                    directions.include(ray.direction, active);
-                    origins.include(ray.origin, active);
+                    directions.include(ray.direction, lit);
+                    origins.include(ray.origin, lit);
                 }
                 ray.origin.store(&mut rays.origin, at);
-                ray
             },
         );
         (count, wanted.then(|| Bounds::new(origins.span(), directions.span())))
     }
 
-    /// Makes the shadow rays by `spawn` of packet, point, normal and lift; their number. `towards` is 1 where they run to
-    /// the light and −1 where they come from it.
+    /// Makes the shadow rays by `spawn` of point, normal and lift, and hands them to `made` with packet and lanes; their
+    /// number. `towards` is 1 where they run to the light and −1 where they come from it.
     #[inline(always)]
     fn fire<L: Lanes, C: Contents>(
         &mut self,
@@ -154,7 +152,8 @@ impl Lighting {
         wave: &Wave,
         surfaces: &Surfaces,
         towards: f32,
-        mut spawn: impl FnMut(&mut RayBatch, usize, Vec3<L>, Vec3<L>, L) -> ShadowRay<L>,
+        spawn: impl Fn(Vec3<L>, Vec3<L>, L) -> ShadowRay<L>,
+        mut made: impl FnMut(&mut RayBatch, usize, &ShadowRay<L>, L::Mask),
     ) -> u64 {
         let mut count = 0;
         self.rays.set_len(wave.rays.len);
@@ -165,14 +164,16 @@ impl Lighting {
                 L::splat(-1.0).store(&mut self.rays.t_max[at..]);
                 continue;
             }
-            let (point, geometric) = (Vec3::load(&surfaces.point, at), surfaces.geometric_normal::<L, C>(scene, at));
-            let ray = spawn(&mut self.rays, at, point, geometric, lift);
-            let mut lit = hit & ray.cosine.gt(L::zero());
-            let mut cosine = ray.cosine;
+            let point = surfaces.seen_from::<L, C>(scene, at);
+            let ray = spawn(point, surfaces.geometric_normal::<L, C>(scene, at), lift);
+            let (mut lit, mut cosine) = (hit & ray.cosine.gt(L::zero()), ray.cosine);
             if C::ALL && scene.plan.smooth {
                 cosine = Vec3::<L>::load(&surfaces.normal, at).dot(ray.direction) * L::splat(towards);
-                lit = lit & cosine.gt(L::zero());
+                // From above its own triangle a ray may run below the triangle's plane.
+                let above = if scene.plan.raised { hit } else { lit };
+                lit = above & cosine.gt(L::zero());
             }
+            made(&mut self.rays, at, &ray, lit);
             count += u64::from(lit.bits().count_ones());
             ray.direction.store(&mut self.rays.direction, at);
             ray.t_max.select(lit, L::splat(-1.0)).store(&mut self.rays.t_max[at..]);

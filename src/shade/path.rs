@@ -4,7 +4,8 @@ use super::around::around;
 use super::medium::{Deeper, MediumStack, Passage};
 use super::refract::split;
 use super::spawn::{self, Offsets};
-use super::surface::{shading_normal, start, surface};
+use super::surface::{smooth, start, surface};
+use crate::geometry::Surface;
 use crate::math::Vec3 as Lane3;
 use crate::scene::{MIN_WEIGHT, Scene, ShadowStart};
 use crate::trace::Probe;
@@ -82,6 +83,8 @@ struct Arrival {
     point: Lane3<f32>,
     normal: Lane3<f32>,
     geometric: Lane3<f32>,
+    /// From where it sees lights.
+    raised: Lane3<f32>,
     lift: f32,
 }
 
@@ -96,12 +99,19 @@ impl Tree<'_> {
         self.segments.push(Segment { kind, from, to: Some(s.point.into()), direction });
         let front = Vec3::from(s.normal).dot(direction) <= 0.0;
         let facing = |n: Lane3<f32>| if front { n } else { -n };
+        let geometric = facing(s.normal);
+        let smooth = smooth(self.scene, hit.primitive, &Surface { normal: geometric, ..s });
+        let raised = match smooth.filter(|_| self.scene.plan.raised) {
+            Some([_, rise]) => spawn::raise(s.point, rise, geometric),
+            None => s.point,
+        };
         let transparent = self.scene.medium_of[material as usize] != 0;
         let (point, coordinate) = start(self.scene, hit.primitive, &s, transparent);
         let arrival = Arrival {
             point,
-            normal: facing(shading_normal(self.scene, hit.primitive, &s)),
-            geometric: facing(s.normal),
+            normal: smooth.map_or(geometric, |[normal, _]| normal),
+            geometric,
+            raised,
             lift: Offsets::of(&self.scene.plan.methods).lift_by::<f32>(coordinate, s.reach),
         };
         self.shadows(&arrival);
@@ -117,11 +127,11 @@ impl Tree<'_> {
                 ShadowStart::Point => spawn::shadow_from_point::<f32>,
             };
             let ray =
-                spawn(&Offsets::of(&self.scene.plan.methods), light.position.into(), at.point, at.geometric, at.lift);
-            let from = Vec3::from(at.point);
+                spawn(&Offsets::of(&self.scene.plan.methods), light.position.into(), at.raised, at.geometric, at.lift);
+            let from = Vec3::from(at.raised);
             let direction = (light.position - from).normalize();
             let faces = !self.scene.plan.smooth || Vec3::from(at.normal).dot(direction) > 0.0;
-            if ray.cosine > 0.0 && faces {
+            if (ray.cosine > 0.0 || self.scene.plan.raised) && faces {
                 let blocked = self.probe.occluded(self.scene, ray.origin.into(), ray.direction.into(), ray.t_max);
                 let kind = SegmentKind::Shadow { blocked };
                 self.segments.push(Segment { kind, from, to: Some(light.position), direction });

@@ -70,16 +70,14 @@ pub fn split<L: Lanes>(
     let facing = |n: Vec3<L>| (-n.dot(direction)).max(L::zero()).min(L::splat(1.0));
     let cosine = facing(normal);
     let Fresnel { reflectance: f, cosine: through, mut total } = fresnel(cosine, eta);
-    let mut refracted = bend(direction, normal, eta, cosine, through);
+    let refracted = bend(direction, normal, eta, cosine, through);
     let mut reflected = spawn::mirror(direction, normal);
     if let Some(geometric) = geometric {
-        // And one that bends a ray back to where it came from gives way to the surface's own.
-        let below = refracted.dot(geometric).lt(L::zero());
-        let cosine = facing(geometric);
-        let own = fresnel(cosine, eta);
-        refracted = refracted.select(below, bend(direction, geometric, eta, cosine, own.cosine));
         reflected = spawn::mirror_above(direction, normal, geometric);
-        total = total | (own.total & !below);
+        // One that bends a ray back to where it came from gives way to the surface's own, which reflects all of it there:
+        // with g·t ≥ 0, −g·d ≤ √(1 − η⁻²) g·n, as η c − c' is greatest at the critical angle; so −g·d is below that angle's
+        // cosine.
+        total = total | !refracted.dot(geometric).lt(L::zero());
     }
     let f = L::splat(1.0).select(total, L::zero().select(additive, f));
     Split {

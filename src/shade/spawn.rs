@@ -157,6 +157,15 @@ pub fn shadow_from_point<L: Lanes>(
     ShadowRay { origin, direction, t_max, cosine: normal.dot(direction), inverse }
 }
 
+/// A point moved by `rise` off the surface, to the side of `normal`, for a shadow ray to start at instead. A bit more, for
+/// the rounding of the sum, √3 ε M, and as the lift was meant for the M of the point.
+#[inline(always)]
+pub fn raise<L: Lanes>(point: Vec3<L>, rise: Vec3<L>, normal: Vec3<L>) -> Vec3<L> {
+    let height = rise.max_abs();
+    let more = point.max_abs().mul_add(L::splat(2.0 * ROUNDOFF), height * L::splat(11.0 * ROUNDOFF));
+    point + normal.mul_add(more, rise)
+}
+
 /// A vector's direction, length and the length's inverse.
 #[inline(always)]
 fn unit<L: Lanes>(v: Vec3<L>, steps: Option<u32>) -> (Vec3<L>, L, L) {

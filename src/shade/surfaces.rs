@@ -1,13 +1,13 @@
 //! Where the rays of a wave arrived: point, normal and material, packet by packet.
 
 use super::medium::{Deeper, MediumStack, Passage};
-use super::spawn::Offsets;
-use super::surface::{shading_normal, start};
+use super::spawn::{self, Offsets};
+use super::surface::{smooth, start};
 use super::texture;
 use super::wave::Wave;
-use crate::geometry::{Primitives, Surface};
-use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3, exp2};
-use crate::scene::{Material, Pigment, Scene, with_primitive};
+use crate::geometry::{Mapping, Primitives, Surface};
+use crate::math::{BATCH, LaneMask, Lanes, MAX_LANES, Vec3, exp2, map2};
+use crate::scene::{Material, Pigment, Scene, Wrap, with_primitive};
 use crate::trace::{Contents, Nearest};
 
 /// The surfaces that a wave's rays hit, column by column.
@@ -21,6 +21,8 @@ pub struct Surfaces {
     /// Unit normals of the surfaces themselves, turned against the rays; written only where the plan has interpolated
     /// normals, and else the same as `normal`.
     pub geometric: [[f32; BATCH]; 3],
+    /// From where lights are seen; written only where the plan says that it is not the point.
+    pub raised: [[f32; BATCH]; 3],
     /// How far from the surface spawned rays start; below zero where nothing was hit.
     pub lift: [f32; BATCH],
     /// Diffuse colour times the ray's weight and what the mirror leaves of it.
@@ -70,6 +72,7 @@ impl Default for Surfaces {
             point: [[0.0; BATCH]; 3],
             normal: [[0.0; BATCH]; 3],
             geometric: [[0.0; BATCH]; 3],
+            raised: [[0.0; BATCH]; 3],
             lift: [-1.0; BATCH],
             color: [[0.0; BATCH]; 3],
             mirror: [0.0; BATCH],
@@ -95,8 +98,7 @@ struct Gathered<L> {
     specular: L,
     shininess: L,
     glossy: bool,
-    /// For shading; of account only in a rich scene, as is all that follows, and `own`.
-    smooth: Vec3<L>,
+    /// Of account only in a rich scene, as are the next, and `own`.
     transmission: L,
     additive: L,
 }
@@ -136,13 +138,11 @@ impl Surfaces {
             left &= !same.bits();
         }
         let behind = g.normal.dot(direction).gt(L::zero());
-        let mut normal = (-g.normal).select(behind, g.normal);
-        if C::ALL && scene.plan.smooth {
-            normal.store(&mut self.geometric, at);
-            normal = (-g.smooth).select(behind, g.smooth);
-        }
         g.point.store(&mut self.point, at);
-        normal.store(&mut self.normal, at);
+        (-g.normal).select(behind, g.normal).store(&mut self.normal, at);
+        if C::ALL && scene.plan.smooth {
+            self.smooth::<L>(scene, at, &ids, hit.found.bits());
+        }
         let offsets = Offsets::of(&scene.plan.methods);
         let lift = match C::ALL && scene.plan.refracts {
             false => offsets.lift(g.point, g.reach),
@@ -163,6 +163,33 @@ impl Surfaces {
             g.additive.store(&mut self.media.additive[at..]);
             self.media.pass::<L>(scene, wave, at, hit, !behind, deeper);
         }
+    }
+
+    /// Interpolates the normals of packet `at`, whose rays hit these ids where the bits say so, and finds from where they
+    /// see lights.
+    #[inline(never)]
+    fn smooth<L: Lanes>(&mut self, scene: &Scene, at: usize, ids: &[u32; MAX_LANES], found: u32) {
+        let (point, own) = (Vec3::<L>::load(&self.point, at), Vec3::<L>::load(&self.normal, at));
+        own.store(&mut self.geometric, at);
+        let (mut normal, mut raised, mut left) = (own, point, found);
+        while left != 0 {
+            let id = ids[left.trailing_zeros() as usize];
+            let same = L::id_mask(ids, id);
+            left &= !same.bits();
+            let surface = Surface { point, normal: own, reach: 0.0 };
+            if let Some([smooth, rise]) = smooth(scene, id, &surface) {
+                normal = smooth.select(same, normal);
+                raised = spawn::raise(point, rise, own).select(same, raised);
+            }
+        }
+        normal.store(&mut self.normal, at);
+        raised.store(&mut self.raised, at);
+    }
+
+    /// From where packet `at` sees lights.
+    #[inline(always)]
+    pub fn seen_from<L: Lanes, C: Contents>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        Vec3::load(if C::ALL && scene.plan.raised { &self.raised } else { &self.point }, at)
     }
 
     /// The unit normals of the surfaces themselves for packet `at`, turned against the rays.
@@ -242,7 +269,6 @@ impl<L: Lanes> Gathered<L> {
             specular: self.specular.select(mask, other.specular),
             shininess: self.shininess.select(mask, other.shininess),
             glossy: self.glossy | other.glossy,
-            smooth: self.smooth.select(mask, other.smooth),
             transmission: self.transmission.select(mask, other.transmission),
             additive: self.additive.select(mask, other.additive),
         }
@@ -253,7 +279,6 @@ impl<L: Lanes> Gathered<L> {
 #[inline(always)]
 fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered<L> {
     let Painted { surface, material: m, color } = painted::<L, C>(scene, id, p);
-    let smooth = if C::ALL && scene.plan.smooth { shading_normal(scene, id, &surface) } else { surface.normal };
     let (point, coordinate) = match C::ALL && scene.plan.refracts {
         false => (surface.point, L::zero()),
         true => start(scene, id, &surface, m.transmission > 0.0),
@@ -269,7 +294,6 @@ fn gather<L: Lanes, C: Contents>(scene: &Scene, id: u32, p: Vec3<L>) -> Gathered
         specular: L::splat(m.specular),
         shininess: L::splat(m.shininess),
         glossy: m.specular > 0.0,
-        smooth,
         transmission: L::splat(m.transmission),
         additive: L::splat(f32::from(u8::from(m.additive))),
     }
@@ -316,7 +340,7 @@ fn paint<'a, K: Primitives, L: Lanes>(scene: &'a Scene, kind: &K, i: usize, p: V
             let odd = odd_cell(kind.checker(i, &surface) * L::splat(1.0 / size));
             Vec3::splat(colors[1]).select(odd, Vec3::splat(colors[0]))
         }
-        Pigment::Texture { texture, size } => textured(scene, kind, i, surface, texture, 1.0 / size),
+        Pigment::Texture { texture, size, wrap } => textured(scene, kind, i, surface, texture, 1.0 / size, wrap),
     };
     Painted { surface, material, color }
 }
@@ -328,7 +352,7 @@ fn odd_cell<L: Lanes>(q: Vec3<L>) -> L::Mask {
     !half.floor().eq(half)
 }
 
-/// The colour of a texture.
+/// The colour of a texture that has so many repeats from 0 to 1.
 #[inline(never)]
 fn textured<K: Primitives, L: Lanes>(
     scene: &Scene,
@@ -336,9 +360,19 @@ fn textured<K: Primitives, L: Lanes>(
     i: usize,
     surface: Surface<L>,
     texture: usize,
-    per_size: f32,
+    repeats: f32,
+    wrap: Wrap,
 ) -> Vec3<L> {
-    let [u, v] = kind.uv(i, &surface);
-    let per_size = L::splat(per_size);
-    texture::sample(&scene.textures[texture], u * per_size, v * per_size)
+    let uv = map2(kind.uv(i, &surface), |x| x * L::splat(repeats));
+    let texture = &scene.textures[texture];
+    match wrap {
+        Wrap::Repeat => texture::sample(texture, uv, &Mapping::endless(), repeats),
+        Wrap::Clamp => texture::sample(texture, uv, &Mapping::face(), 1.0),
+        Wrap::Ends => {
+            let mapping = kind.mapping(i, &surface);
+            let color = texture::sample(texture, uv, &mapping, repeats);
+            let poles = &scene.poles[kind.material(i) as usize];
+            texture::at_poles(color, poles, uv[1], &mapping, repeats, texture.height)
+        }
+    }
 }

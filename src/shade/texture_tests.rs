@@ -1,6 +1,7 @@
 use super::*;
+use crate::math::map2;
 use crate::reference;
-use crate::scene::{Description, Material, Pigment, Quad};
+use crate::scene::{Description, Material, Pigment, Quad, Wrap};
 use glam::{DVec3, vec3};
 use wide::{f32x4, f32x8};
 
@@ -17,7 +18,7 @@ fn noise(width: usize, height: usize) -> Texture {
 }
 
 fn color(texture: &Texture, u: f32, v: f32) -> [f32; 3] {
-    glam::Vec3::from(sample::<f32>(texture, u, v)).to_array()
+    glam::Vec3::from(sample::<f32>(texture, [u, v], &Mapping::endless(), 1.0)).to_array()
 }
 
 fn linear(byte: u8) -> f32 {
@@ -40,7 +41,7 @@ fn exact(texture: &Texture, u: f32, v: f32) -> DVec3 {
 
 /// A scene in which a surface with the texture shows its very colour.
 fn lit(texture: &Texture, size: f32) -> Description {
-    let material = Material { pigment: Pigment::Texture { texture: 0, size }, ..Material::default() };
+    let material = Material { pigment: Pigment::Texture { texture: 0, size, wrap: Wrap::Ends }, ..Material::default() };
     let mut scene = Description::default();
     scene.settings.ambient = glam::Vec3::ONE;
     scene.materials = vec![material];
@@ -84,7 +85,8 @@ fn it_agrees_with_the_reference() {
                 _ => (random(&mut state) - 0.5) * reach,
             };
             let (u, v) = (coordinate(), coordinate());
-            let (got, exact) = (glam::Vec3::from(sample::<f32>(&texture, u, v)).as_dvec3(), exact(&texture, u, v));
+            let got = glam::Vec3::from_array(color(&texture, u, v)).as_dvec3();
+            let exact = exact(&texture, u, v);
             // A step of 2^-22 of the image, times the steepest slope between two texels: their number.
             let most = (width + height) as f64 / (1 << 22) as f64 + 1e-6;
             assert!(got.abs_diff_eq(exact, most), "{width} x {height} at ({u}, {v}): {got}, not {exact}");
@@ -112,16 +114,21 @@ fn whatever_the_coordinates_the_color_is_one_of_the_image() {
 
 #[test]
 fn all_widths_give_the_same_bits() {
-    fn all<L: Lanes>(texture: &Texture, uv: &[[f32; 2]]) -> Vec<u32> {
+    fn all<L: Lanes>(texture: &Texture, uv: &[[f32; 2]]) -> Vec<[u32; 3]> {
         let columns = [0, 1].map(|k| uv.iter().map(|uv| uv[k]).collect::<Vec<_>>());
-        let mut bits = Vec::new();
+        let mut bits = vec![Vec::new(); 3];
         for at in (0..uv.len()).step_by(L::WIDTH) {
-            let color = sample(texture, L::load(&columns[0][at..]), L::load(&columns[1][at..]));
-            let mut out = [[0.0; 8]; 3];
-            color.store(&mut out, 0);
-            (0..L::WIDTH).for_each(|i| bits.extend(out.map(|channel| channel[i].to_bits())));
+            let uv = map2([0, 1], |k: usize| L::load(&columns[k][at..]));
+            let mappings = [Mapping::endless(), Mapping::face(), Mapping::around([true; 2])];
+            for (bits, mapping) in bits.iter_mut().zip(mappings) {
+                let color = sample(texture, uv, &mapping, 2.4);
+                let color = at_poles(color, &[glam::Vec3::X; 2], uv[1], &mapping, 2.4, texture.height);
+                let mut out = [[0.0; 8]; 3];
+                color.store(&mut out, 0);
+                (0..L::WIDTH).for_each(|i| bits.push(out.map(|channel| channel[i].to_bits())));
+            }
         }
-        bits
+        bits.concat()
     }
     let mut state = 5;
     let mut number = || (random(&mut state) - 0.5) * if random(&mut state) < 0.5 { 2.0 } else { 3e9 };

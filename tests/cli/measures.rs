@@ -77,15 +77,19 @@ fn methods_are_chosen_by_name_and_judged_like_all_others() {
     let folder = folder();
     let run = |line: &str| raypacket(folder.path(), line);
     let text = run("bench good.toml --size 32x16 --threads 1 --method sphere=double --json -").good().stdout;
-    let methods = "sphere=double triangle=watertight torus=monotone_newton normalize=division offset=derived";
+    let methods = "sphere=double triangle=watertight torus=monotone_newton normalize=division offset=derived \
+                   terminator=tangent_planes";
     assert_eq!(parse(&text)["methods"], methods);
     // The last of a kind counts; and info says that it was asked for.
     let text = run("info good.toml --method sphere=geometric --method sphere=quadratic").good().stdout;
     assert!(text.contains("method `quadratic`: as asked for"), "{text}");
-    // Found out: the lecture's test sees no sphere from inside, and no offset is no good anywhere.
-    for line in
-        ["verify glass --size 64x32 --method sphere=geometric", "verify classic --size 64x32 --method offset=none"]
-    {
+    // Found out: the lecture's test sees no sphere from inside, no offset is no good anywhere, and flat triangles' shadows
+    // are no good for round shading.
+    for line in [
+        "verify glass --size 64x32 --method sphere=geometric",
+        "verify classic --size 64x32 --method offset=none",
+        "verify vase --size 64x32 --method terminator=none",
+    ] {
         let verdict = run(line);
         assert_eq!(verdict.status, Some(1), "{line}: {}", verdict.stdout);
         assert!(verdict.stdout.contains("FAIL"), "{line}: {}", verdict.stdout);

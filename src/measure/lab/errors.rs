@@ -7,7 +7,7 @@ use super::truth;
 use crate::measure::cases::Ray;
 use crate::measure::oracle::{Shape, Truth};
 use crate::scene::Scene;
-use crate::shade::facing_normal;
+use crate::shade::facing_normals;
 use crate::trace::Hit;
 
 /// Wrong decisions looked at for whether rounding excuses them, at the most; the rest counts in proportion.
@@ -145,7 +145,7 @@ fn unexcused(shape: &Shape, wrong: &[(Ray, f64)]) -> usize {
 }
 
 fn normal(scene: &Scene, ray: &Ray, hit: Hit) -> DVec3 {
-    let normal = facing_normal(scene, hit.primitive, ray.origin, ray.direction, hit.t);
+    let [normal, _] = facing_normals(scene, hit.primitive, ray.origin, ray.direction, hit.t);
     glam::Vec3::from(normal).as_dvec3()
 }
 

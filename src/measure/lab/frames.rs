@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::image::{Difference, difference};
 use super::{Budget, Timing};
-use crate::geometry::methods::{Choice, Methods, NormalizeMethod, OffsetMethod};
+use crate::geometry::methods::{Choice, Methods, NormalizeMethod, OffsetMethod, TerminatorMethod};
 use crate::geometry::methods::{SphereMethod, TorusMethod, TriangleMethod};
 use crate::render::{ALIKE, Camera, Film, Kernel, Samples, render_samples};
 use crate::scene::{self, Description, Scene, compile_with};
@@ -133,6 +133,10 @@ fn contestants(description: &Description, plan: &Methods) -> Vec<(String, Option
     }
     if !description.meshes.is_empty() {
         choices.extend(TriangleMethod::ALL.iter().map(|&m| ("triangle", m.name(), Choice::Triangle(m))));
+    }
+    if description.meshes.iter().any(|mesh| !mesh.normals.is_empty()) {
+        let none = TerminatorMethod::None;
+        choices.push(("terminator", none.name(), Choice::Terminator(none)));
     }
     if !description.tori.is_empty() {
         choices.extend(TorusMethod::ALL.iter().map(|&m| ("torus", m.name(), Choice::Torus(m))));

@@ -11,8 +11,9 @@ use crate::scene::{Invalid, Sides};
 
 /// Triangles that share vertices; the front is where the corners run counter-clockwise.
 ///
-/// With vertex normals the shading normal is interpolated, and turned to the side of the geometric one that the ray
-/// sees. (u, v) is interpolated from the vertices, or are the corner's barycentric coordinates where there are none:
+/// With vertex normals the shading normal is interpolated between their unit vectors, and turned to the side of the
+/// geometric one that the ray sees. Lights are then seen from the surface that the vertices' tangent planes make, and not
+/// from the triangle. (u, v) is interpolated from the vertices, or are the corner's barycentric coordinates where there are none:
 /// (0, 0), (1, 0), (0, 1). Checker coordinates are (p·T, p·B) with the axes of [`crate::geometry::frame`] of the
 /// triangle's own normal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,7 +76,8 @@ impl Kind for Mesh {
     /// Adds its triangles, and to those what its vertices have.
     fn store(&self, to: &mut Triangles) {
         let [normals, uvs] = [to.normals.values.len(), to.uvs.values.len()].map(|n| n as u32);
-        to.normals.values.extend(&self.normals);
+        // In f64, where no square overflows or vanishes.
+        to.normals.values.extend(self.normals.iter().map(|n| n.as_dvec3().normalize().as_vec3()));
         to.uvs.values.extend(&self.uvs);
         for (k, corners) in self.triangles.iter().enumerate() {
             let i = to.len();

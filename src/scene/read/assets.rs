@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use super::{error::ReadError, source::bytes_of};
 
 /// The files of the built-in scenes, as the scenes name them.
-static BUILTIN: [(&str, &[u8]); 3] = [
+static BUILTIN: [(&str, &[u8]); 5] = [
+    ("meshes/ball.obj", include_bytes!("../../../scenes/meshes/ball.obj")),
+    ("meshes/vase.obj", include_bytes!("../../../scenes/meshes/vase.obj")),
     ("textures/brick.png", include_bytes!("../../../scenes/textures/brick.png")),
     ("textures/dusk.hdr", include_bytes!("../../../scenes/textures/dusk.hdr")),
     ("textures/globe.png", include_bytes!("../../../scenes/textures/globe.png")),

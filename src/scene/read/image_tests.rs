@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{Description, Pigment, Sky, read};
+use crate::scene::{Description, Pigment, Sky, Wrap, read};
 use image::{ColorType, ExtendedColorType};
 use std::fs;
 
@@ -85,18 +85,29 @@ fn panoramas_are_linear() {
 #[test]
 fn a_scene_finds_its_images_beside_itself() {
     let text = "sky.image = 'sky.hdr'\nsky.rotation = 30\nmaterials.a.texture = 'a.png'\nmaterials.b.texture = 'a.png'\n\
-                materials.b.texture_size = 2.5\nmaterials.c.texture = 'c'\n";
+                materials.b.texture_size = 2.5\nmaterials.c.texture = 'c'\nmaterials.c.texture_wrap = 'clamp'\n\
+                materials.d.texture = 'c'\nmaterials.d.texture_wrap = 'repeat'\n";
     let one = png(&[1, 2, 3], 1, 1, ColorType::Rgb8);
     let other = encoded(&[0; 3], 1, 1, ColorType::Rgb8, ImageFormat::Jpeg);
     let files: [(&str, &[u8]); 3] =
         [("sky.hdr", b"#?RGBE\n\n-Y 1 +X 1\n\x80\x40\x00\x82"), ("a.png", &one), ("c", &other)];
     let d = scene(text, &files).unwrap();
     let pigments: Vec<_> = d.materials.iter().map(|m| m.pigment).collect();
-    let texture = |texture, size| Pigment::Texture { texture, size };
-    assert_eq!(pigments, [texture(0, 1.0), texture(0, 2.5), texture(1, 1.0)], "one file, one texture");
+    let texture = |texture, size, wrap| Pigment::Texture { texture, size, wrap };
+    let ends = Wrap::Ends;
+    let expected =
+        [texture(0, 1.0, ends), texture(0, 2.5, ends), texture(1, 1.0, Wrap::Clamp), texture(1, 1.0, Wrap::Repeat)];
+    assert_eq!(pigments, expected, "one file, one texture");
     assert_eq!((d.textures.len(), &d.textures[0].texels[..]), (2, &[[1, 2, 3]][..]));
     let Sky::Dome(dome) = d.sky else { panic!("a dome") };
     assert_eq!((dome.width, dome.height, dome.rotation, &dome.texels[..]), (1, 1, 30.0, &[[2.0, 1.0, 0.0]][..]));
+}
+
+#[test]
+fn a_texture_wraps_in_no_other_way() {
+    let one = png(&[1, 2, 3], 1, 1, ColorType::Rgb8);
+    let error = scene("materials.a.texture = 'a.png'\nmaterials.a.texture_wrap = 'mirror'\n", &[("a.png", &one)]);
+    assert!(error.unwrap_err().ends_with(":2: materials.a.texture_wrap: no \"mirror\"; there are repeat and clamp"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::{fs, sync::Arc, time::Instant};
 
 use super::*;
-use crate::scene::{Pigment, Texture};
+use crate::scene::{Pigment, Texture, Wrap};
 
 /// A folder of files, and how they are read.
 struct Folder(tempfile::TempDir);
@@ -320,7 +320,7 @@ fn textures_are_beside_their_library() {
     fs::write(f.path("other.png"), &picture).unwrap();
     let (model, textures) = f.model().unwrap();
     let pigments: Vec<Pigment> = model.materials.iter().map(|m| m.pigment).collect();
-    assert_eq!(pigments, [0, 1].map(|texture| Pigment::Texture { texture, size: 1.0 }));
+    assert_eq!(pigments, [0, 1].map(|texture| Pigment::Texture { texture, size: 1.0, wrap: Wrap::Ends }));
     let expected = Texture { width: 2, height: 1, texels: vec![[255, 0, 0], [0, 0, 255]] };
     assert!(textures.len() == 2 && textures.iter().all(|t| **t == expected));
 }

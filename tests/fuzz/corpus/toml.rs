@@ -34,7 +34,7 @@ sky = { image = "textures/dusk.hdr", rotation = 30 }
 light = [{ position = [3, 5, 4], power = [1, 2, 3] }, { position = [-4, 2, 1], power = [1, 1, 0] }]
 [materials]
 glass = { transmission = 0.9, reflectance = 0.1, ior = 1.5, absorption = [0.1, 0.2, 0] }
-brick = { texture = "textures/brick.png", texture_size = 0.5, specular = 0.5, shininess = 20 }
+brick = { texture = "textures/brick.png", texture_size = 0.5, texture_wrap = "clamp", specular = 0.5, shininess = 20 }
 "tiles \u00e9" = { checker = { colors = [[1, 1, 1], [0, 0, 0]], size = 0.25 }, reflectance = 0.5 }
 [[mesh]]
 file = "mesh.obj"
@@ -70,7 +70,7 @@ sky.gradient = [[1, 1, 1], [0, 0, 1]]
 const TOKENS: &str = "\
     camera|settings|sky|light|materials|plane|sphere|triangle|quad|box|cylinder|cone|torus|fractal|disc|mesh|eye|\
     look_at|up|fov|max_depth|color|attenuation|ambient|gradient|image|rotation|position|power|checker|texture|\
-    texture_size|reflectance|transmission|ior|absorption|specular|shininess|normal|distance|center|radius|\
+    texture_size|texture_wrap|reflectance|transmission|ior|absorption|specular|shininess|normal|distance|center|radius|\
     vertices|normals|uvs|corner|u|v|min|max|base|apex|caps|base_radius|apex_radius|axis|major_radius|\
     minor_radius|inner_radius|\
     iterations|file|scale|translation|material|colors|size|true|false|nan|inf|1979-05-27T07:32:00Z|\

@@ -23,7 +23,7 @@ use glam::Vec3;
 
 use super::{budget::Budget, numbers::numbers};
 use crate::scene::{
-    Material, Pigment,
+    Material, Pigment, Wrap,
     read::{error::ReadError, image::Images, lines::Lines},
 };
 
@@ -143,6 +143,7 @@ impl Entry {
                         .texture_at(self.find(file, folder))
                         .map_err(|error| ReadError::at(&self.file, *line, "map_Kd", error))?,
                     size: 1.0,
+                    wrap: Wrap::default(),
                 },
             },
             reflectance: if matches!(self.model, Some(3 | 5 | 8)) { shine.min(1.0 - transmission) } else { 0.0 },

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::Vec3;
 
 use super::value::{Fault, table};
-use crate::scene::{Invalid, Material, Pigment, read::image::Images, rules};
+use crate::scene::{Invalid, Material, Pigment, Wrap, read::image::Images, rules};
 
 /// The material of a primitive that names none, unless the file defines one of this name.
 const DEFAULT_MATERIAL: &str = "default";
@@ -16,6 +16,7 @@ table! {
         checker: Option<CheckerFile>,
         texture: Option<String>,
         texture_size: Option<f32>,
+        texture_wrap: Option<String>,
         reflectance: f32 = Material::default().reflectance,
         transmission: f32 = Material::default().transmission,
         ior: f32 = Material::default().ior,
@@ -33,22 +34,32 @@ table! {
 }
 
 fn material((name, file): (String, MaterialFile), images: &mut Images<'_>) -> Result<Material, Invalid> {
-    let MaterialFile { color, checker, texture, texture_size, reflectance, transmission, .. } = file;
+    let MaterialFile { color, checker, texture, texture_size, texture_wrap, reflectance, transmission, .. } = file;
     let invalid =
         |key: &str, problem: String| Invalid { key: format!("materials.{}.{key}", rules::key_part(&name)), problem };
     if usize::from(color.is_some()) + usize::from(checker.is_some()) + usize::from(texture.is_some()) > 1 {
         let key = if checker.is_some() { "checker" } else { "texture" };
         return Err(invalid(key, "only one of color, checker and texture".into()));
     }
-    if texture_size.is_some() && texture.is_none() {
-        return Err(invalid("texture_size", "only goes with texture".into()));
+    for (key, given) in [("texture_size", texture_size.is_some()), ("texture_wrap", texture_wrap.is_some())] {
+        if given && texture.is_none() {
+            return Err(invalid(key, "only goes with texture".into()));
+        }
     }
     let pigment = match (color, checker, texture) {
         (Some(c), ..) => Pigment::Color(c),
         (_, Some(c), _) => Pigment::Checker { colors: c.colors, size: c.size },
         (.., Some(file)) => {
             let texture = images.texture(&file).map_err(|error| invalid("texture", error.to_string()))?;
-            Pigment::Texture { texture, size: texture_size.unwrap_or(1.0) }
+            let wrap = match texture_wrap.as_deref() {
+                None => Wrap::Ends,
+                Some("repeat") => Wrap::Repeat,
+                Some("clamp") => Wrap::Clamp,
+                Some(other) => {
+                    return Err(invalid("texture_wrap", format!("no {other:?}; there are repeat and clamp")));
+                }
+            };
+            Pigment::Texture { texture, size: texture_size.unwrap_or(1.0), wrap }
         }
         _ => Pigment::Color(Vec3::splat(0.8)),
     };
