@@ -214,6 +214,8 @@ fn materials_and_skies_out_of_range() {
     material("transmission = 1.5", "must be 0 to 1, got 1.5");
     material("ior = 0", "must be 0.1 to 10, got 0");
     material("absorption = [0, -1, 0]", "must be finite and 0 or more, got [0, -1, 0]");
+    material("color = [0, 2e9, 0]", "must be at most 1e9, got [0, 2000000000, 0]");
+    material("specular = 2e9", "must be at most 1e9, got 2000000000");
     material("texture_size = 2", "only goes with texture");
     material("texture_wrap = \"clamp\"", "only goes with texture");
     fault(
@@ -400,6 +402,10 @@ fn values_out_of_range() {
     fault(
         "[[light]]\nposition = [0, 0, 0]\npower = [0, 0, -1]",
         "s.toml:3: light[0].power: must be finite and 0 or more, got [0, 0, -1]",
+    );
+    fault(
+        "[[light]]\nposition = [0, 0, 0]\npower = [0, 0, 1e30]",
+        "s.toml:3: light[0].power: must be at most 1e27, got [0, 0, 1000000000000000000000000000000]",
     );
     fault(
         "[[light]]\nposition = [0, 0, inf]\npower = [0, 0, 1]",

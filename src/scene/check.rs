@@ -1,7 +1,9 @@
 //! The rules of a sound description: each once, whoever wrote the description.
 
 use super::kinds::{Kind, each_kind};
-use super::rules::{At, color, direction, finite, fov, key_part, point, positive, require, rule, triple};
+use super::rules::{
+    At, MAX_COLOR, color, direction, finite, fov, key_part, parts, point, positive, power, require, rule,
+};
 use super::{Description, Dome, Invalid, Material, Pigment, Sky};
 
 /// Indices of refraction: from well below that of anything but vacuum in glass, to well above diamond's.
@@ -28,7 +30,7 @@ pub fn check(description: &Description) -> Result<(), Invalid> {
     settings(description)?;
     for (i, light) in description.lights.iter().enumerate() {
         rule(point(light.position), || format!("light[{i}].position"))?;
-        rule(color(light.power), || format!("light[{i}].power"))?;
+        rule(power(light.power), || format!("light[{i}].power"))?;
     }
     for (i, texture) in description.textures.iter().enumerate() {
         rule(image(texture.width, texture.height, texture.texels.len()), || format!("textures[{i}]"))?;
@@ -86,8 +88,8 @@ fn settings(description: &Description) -> Result<(), Invalid> {
 fn panorama(dome: &Dome) -> Result<(), String> {
     let Dome { width, height, ref texels, .. } = *dome;
     image(width, height, texels.len())?;
-    let sound = |t: &[f32; 3]| t.iter().all(|c| c.is_finite() && *c >= 0.0);
-    require(texels.iter().all(sound), || "a texel is not finite, or below 0".into())
+    let sound = |t: &[f32; 3]| t.iter().all(|c| (0.0..=MAX_COLOR).contains(c));
+    require(texels.iter().all(sound), || format!("a texel is below 0, above {MAX_COLOR:e} or not a number"))
 }
 
 /// A number of pixels that makes a rectangle.
@@ -123,17 +125,14 @@ pub(super) fn surface(material: &Material, textures: usize) -> Result<(), Invali
     })?;
     let [least, most] = [IOR.start(), IOR.end()];
     rule(require(IOR.contains(&ior), || format!("must be {least} to {most}, got {ior}")), || key("ior"))?;
-    rule(color(absorption), || key("absorption"))?;
-    rule(
-        require(absorption.max_element() <= MAX_ABSORPTION, || {
-            format!("must be at most {MAX_ABSORPTION:e}, got {}", triple(absorption))
-        }),
-        || key("absorption"),
-    )?;
+    rule(parts(absorption, MAX_ABSORPTION), || key("absorption"))?;
     rule(
         require(specular >= 0.0 && specular.is_finite(), || format!("must be finite and 0 or more, got {specular}")),
         || key("specular"),
     )?;
+    rule(require(specular <= MAX_COLOR, || format!("must be at most {MAX_COLOR:e}, got {specular}")), || {
+        key("specular")
+    })?;
     rule(
         require(shininess > 0.0 && shininess <= MAX_SHININESS, || {
             format!("must be above 0 and at most {MAX_SHININESS:e}, got {shininess}")

@@ -65,6 +65,45 @@ fn settings_sky_and_lights_are_checked() {
     );
 }
 
+/// Beyond them a product of them would be infinite.
+#[test]
+fn colours_and_powers_have_a_greatest() {
+    let power = |p: f32| verdict(|d| d.lights[0].power.z = p);
+    assert_eq!(power(1.1e27), format!("light[0].power: must be at most 1e27, got [1, 1, {}]", 1.1e27f32));
+    assert_eq!(power(3e38), format!("light[0].power: must be at most 1e27, got [1, 1, {}]", 3e38f32));
+    assert_eq!(
+        verdict(|d| d.settings.ambient.x = 1e30),
+        format!("settings.ambient: must be at most 1e9, got [{}, 0, 0]", 1e30f32)
+    );
+    assert_eq!(
+        verdict(|d| d.sky = Sky::Color(Vec3::Y * 2e9)),
+        "sky.color: must be at most 1e9, got [0, 2000000000, 0]"
+    );
+    assert_eq!(
+        verdict(|d| d.materials[0].pigment = Pigment::Color(Vec3::Y * 2e9)),
+        "materials.grey.color: must be at most 1e9, got [0, 2000000000, 0]"
+    );
+    assert_eq!(
+        verdict(|d| d.materials[0].specular = 2e9),
+        "materials.grey.specular: must be at most 1e9, got 2000000000"
+    );
+    let dome = |texel| Dome { width: 1, height: 1, texels: vec![[0.0, texel, 0.0]], rotation: 0.0 };
+    assert_eq!(
+        verdict(|d| d.sky = Sky::Dome(dome(1e10).into())),
+        "sky.image: a texel is below 0, above 1e9 or not a number"
+    );
+    let mut greatest = sound();
+    greatest.lights = vec![Light { position: Vec3::ONE, power: Vec3::splat(1e27) }; 100];
+    greatest.settings.attenuation = false;
+    greatest.settings.ambient = Vec3::splat(1e9);
+    greatest.sky = Sky::Dome(dome(1e9).into());
+    greatest.materials[0].pigment = Pigment::Color(Vec3::splat(1e9));
+    greatest.materials[0].specular = 1e9;
+    assert_eq!(check(&greatest), Ok(()));
+    let light: f32 = greatest.lights.iter().map(|light| 2.0 * light.power.x * 1e9).sum();
+    assert!(light.is_finite());
+}
+
 #[test]
 fn materials_are_checked() {
     assert_eq!(verdict(|d| d.materials[0].reflectance = 1.5), "materials.grey.reflectance: must be 0 to 1, got 1.5");

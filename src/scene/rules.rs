@@ -18,6 +18,13 @@ pub(super) const MIN_RADIUS: f32 = 1e-12;
 /// The greatest distance of a quad's or other body's ends from the world's origin, and its greatest size.
 const MAX_BODY_LENGTH: f32 = MAX_MESH_LENGTH;
 
+/// The greatest part of a colour, and strength of a highlight: far more than the sun's in a panorama.
+pub(super) const MAX_COLOR: f32 = 1e9;
+
+/// The greatest power of a light, a few stars' in watts. On the greatest colour a hundred such lights a unit away, or as many
+/// that do not fall off, still fit an `f32`.
+const MAX_POWER: f32 = 1e27;
+
 /// The smallest field of view, in degrees: narrower, neighbouring pixels have the same direction.
 const MIN_FOV: f32 = 0.01;
 
@@ -145,7 +152,18 @@ pub(super) fn offset(normal: Vec3, distance: f32) -> Result<(), String> {
 }
 
 pub(super) fn color(c: Vec3) -> Result<(), String> {
-    require(c.is_finite() && c.min_element() >= 0.0, || format!("must be finite and 0 or more, got {}", triple(c)))
+    parts(c, MAX_COLOR)
+}
+
+/// A light's power.
+pub(super) fn power(c: Vec3) -> Result<(), String> {
+    parts(c, MAX_POWER)
+}
+
+/// What has a red, a green and a blue part, each from 0 to the greatest.
+pub(super) fn parts(c: Vec3, most: f32) -> Result<(), String> {
+    require(c.is_finite() && c.min_element() >= 0.0, || format!("must be finite and 0 or more, got {}", triple(c)))?;
+    require(c.max_element() <= most, || format!("must be at most {most:e}, got {}", triple(c)))
 }
 
 pub(super) fn positive(x: f32) -> Result<(), String> {

@@ -174,7 +174,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
 
     fn light(&mut self) -> Result<(), ReadError> {
         let position = self.vector("l", rules::point)?;
-        let color = if self.tokens.is_number()? { Some(self.vector("l", rules::color)?) } else { None };
+        let color = if self.tokens.is_number()? { Some(self.vector("l", rules::power)?) } else { None };
         self.lights.push((position, color));
         Ok(())
     }

@@ -285,6 +285,8 @@ fn faults_of_materials_name_file_and_line() {
         ("\nKd 1 x 1", "a.mtl:3: Kd: not a number: x"),
         ("Kd 1 1", "a.mtl:2: Kd: expected 3 numbers, got 2"),
         ("Kd 1 -1 1", "a.mtl:2: Kd: must be finite and 0 or more, got [1, -1, 1]"),
+        ("Kd 1 2e9 1", "a.mtl:2: Kd: must be at most 1e9, got [1, 2000000000, 1]"),
+        ("Ks 2e9", "a.mtl:2: Ks: must be at most 1e9, got [2000000000, 2000000000, 2000000000]"),
         ("Ks nan", "a.mtl:2: Ks: must be finite and 0 or more, got [NaN, NaN, NaN]"),
         ("Ns", "a.mtl:2: Ns: expected a number, got 0"),
         ("d inf", "a.mtl:2: d: must be finite, got inf"),

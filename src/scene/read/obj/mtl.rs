@@ -25,6 +25,7 @@ use super::{budget::Budget, numbers::numbers};
 use crate::scene::{
     Material, Pigment, Wrap,
     read::{error::ReadError, image::Images, lines::Lines},
+    rules,
 };
 
 /// The materials of all libraries of an OBJ file. Where several have the same name, the first counts.
@@ -179,11 +180,8 @@ fn color(rest: &str) -> Result<Vec3, String> {
         (rgb, 3) => Vec3::from(rgb),
         (_, count) => return Err(format!("expected 3 numbers, got {count}")),
     };
-    if color.is_finite() && color.min_element() >= 0.0 {
-        Ok(color)
-    } else {
-        Err(format!("must be finite and 0 or more, got [{}, {}, {}]", color.x, color.y, color.z))
-    }
+    rules::color(color)?;
+    Ok(color)
 }
 
 /// The name of a file, which may hold spaces, after the options that may stand before it.
