@@ -1,18 +1,23 @@
-//! Writing files so that nobody ever sees half of one.
+//! Writing files so that nobody ever sees half of one, and opening those that are read ([`open`]).
 //!
 //! A [`Target`] is checked before the work starts and written when it is done: into a temporary file beside
-//! it, which then takes its name. So a bad path costs no rendering time, and a failure or an interruption leaves the
-//! old file, or none, but never a torn one. An [`Appender`] adds lines to a file that keeps what it has.
+//! it, which takes its name once it is on the disk. So a bad path costs no rendering time, and a failure, an interruption
+//! or a crash leaves the old file, or none, but never a torn one; and a program that calls [`abandon`] when it is told to
+//! end leaves no other. An [`Appender`] adds lines to a file that keeps what it has.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 mod append;
+mod input;
+mod temporary;
 
 pub use append::Appender;
+pub use input::{Identity, open};
+use temporary::Temporary;
+pub use temporary::abandon;
 
 /// Why a file cannot be written: its path and the reason, in one line.
 #[derive(Debug, thiserror::Error)]
@@ -76,19 +81,19 @@ impl Target {
     }
 
     /// Calls `write` with a buffered file and gives that file the target's name, with the permissions that a new
-    /// file usually gets. When `write` fails, an existing file is left as it was.
+    /// file usually gets, once all of it is on the disk. When `write` fails, an existing file is left as it was.
     ///
     /// # Errors
-    /// When `write` fails, or the file cannot be made, flushed or renamed.
+    /// When `write` fails, or the file cannot be made, flushed, brought to the disk or renamed.
     pub fn write(&self, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<(), FileError> {
         if self.special {
             let file = File::options().write(true).open(&self.real).map_err(|e| self.error(&e))?;
             return fill(&file, write).map_err(|e| self.error(&e));
         }
         let temporary = self.temporary()?;
-        fill(temporary.as_file(), write).map_err(|e| self.error(&e))?;
-        temporary.persist(&self.real).map_err(|e| self.error(&e.error))?;
-        Ok(())
+        let written = fill(temporary.file(), write).and_then(|()| sync(temporary.file()));
+        written.and_then(|()| temporary.persist(&self.real)).map_err(|e| self.error(&e))?;
+        sync_folder(self.folder()).map_err(|e| self.error(&e))
     }
 
     /// The folder the file is in: what it shares a file system with, so that renaming is atomic.
@@ -99,8 +104,8 @@ impl Target {
         }
     }
 
-    fn temporary(&self) -> Result<NamedTempFile, FileError> {
-        temporary_in(self.folder()).map_err(|e| self.error(&e))
+    fn temporary(&self) -> Result<Temporary, FileError> {
+        Temporary::new(self.folder()).map_err(|e| self.error(&e))
     }
 
     fn error(&self, error: &io::Error) -> FileError {
@@ -108,19 +113,26 @@ impl Target {
     }
 }
 
-fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".raypacket-").suffix(".tmp");
-    // Temporary files are private by default, but this one becomes an ordinary file: the umask decides.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
-}
-
 fn fill(file: &File, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
     let mut buffer = BufWriter::new(file);
     write(&mut buffer)?;
     buffer.flush()
+}
+
+/// Waits until a file is on the disk, so that no crash can leave its name with less. Some systems cannot tell.
+fn sync(file: &File) -> io::Result<()> {
+    match file.sync_all() {
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        done => done,
+    }
+}
+
+/// The same for the names in a folder, where that can be asked for: not of one that may be written but not read.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    match File::open(folder) {
+        Ok(folder) if cfg!(unix) => sync(&folder),
+        _ => Ok(()),
+    }
 }
 
 /// Writes a new file in a folder (`""` is the current one) under the first of the names `name(1)`, `name(2)` … that
@@ -136,14 +148,16 @@ pub fn write_numbered(
     let error =
         |e: &io::Error| FileError { path: folder.join(name(1)), problem: format!("cannot be written: {}", reason(e)) };
     let here = if folder == Path::new("") { Path::new(".") } else { folder };
-    let mut file = temporary_in(here).map_err(|e| error(&e))?;
-    fill(file.as_file(), write).map_err(|e| error(&e))?;
+    let mut file = Temporary::new(here).map_err(|e| error(&e))?;
+    fill(file.file(), write).and_then(|()| sync(file.file())).map_err(|e| error(&e))?;
     for number in 1..=u32::MAX {
         let path = folder.join(name(number));
-        match file.persist_noclobber(&path) {
-            Ok(_) => return Ok(path),
-            Err(taken) if taken.error.kind() == io::ErrorKind::AlreadyExists => file = taken.file,
-            Err(failed) => return Err(error(&failed.error)),
+        match file.persist_new(&path).map_err(|e| error(&e))? {
+            Some(same) => file = same,
+            None => {
+                sync_folder(here).map_err(|e| error(&e))?;
+                return Ok(path);
+            }
         }
     }
     Err(error(&io::ErrorKind::AlreadyExists.into()))

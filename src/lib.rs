@@ -63,7 +63,7 @@
 //! - [`geometry`]: a file a kind of primitive: storage, tests by named [`geometry::methods`], surface
 //! - [`math`]: [`Lanes`](math::Lanes) and vectors over them, batches of rays and hits
 //! - [`reference`](mod@reference): the scalar tracer that the others are checked against
-//! - [`files`]: writing files whole or not at all
+//! - [`files`]: writing files whole or not at all, and opening those that are read
 //! - `kinds`: the list of the kinds of primitive, from which all that is done kind by kind is made
 //!
 //! # The rules

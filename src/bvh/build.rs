@@ -109,6 +109,9 @@ fn subtree(range: Range, bins: &mut Bins) -> Done {
         range.nodes[0] = Binary { bounds, len: len as u32, choices: Choices::LEAF };
         return Done { costs: Costs::leaf(bounds, range.refs[0].class(), len), class: Some(range.refs[0].class()) };
     }
+    if range.coincides() {
+        return coincident(range.refs, range.order, range.nodes, bounds);
+    }
     let ([left, right], node) = range.split(bins, one_class);
     let (left, right) = if len >= TASK {
         join(|| subtree(left, &mut Bins::default()), || subtree(right, &mut Bins::default()))
@@ -121,7 +124,33 @@ fn subtree(range: Range, bins: &mut Bins) -> Done {
     Done { costs, class }
 }
 
+/// A subtree of primitives of one class that all have the same box. A ray that meets one meets all, so nothing is gained by
+/// parting them: they fill blocks, in the order that they come in, and time is linear in their number.
+fn coincident(refs: &[Ref], order: &mut [u32], nodes: &mut [Binary], bounds: Aabb) -> Done {
+    let (len, class) = (refs.len(), refs[0].class());
+    if len <= BLOCK {
+        order.iter_mut().zip(refs).for_each(|(to, r)| *to = r.index());
+        nodes[0] = Binary { bounds, len: len as u32, choices: Choices::LEAF };
+        return Done { costs: Costs::leaf(bounds, class, len), class: Some(class) };
+    }
+    // As many full blocks as make a full tree.
+    let left = BLOCK * len.div_ceil(BLOCK).next_power_of_two() / 2;
+    let (a, b) = order.split_at_mut(left);
+    let (node, below) = nodes.split_first_mut().expect("a range has nodes");
+    let (c, d) = below.split_at_mut(2 * left - 1);
+    let left = coincident(&refs[..left], a, c, bounds);
+    let right = coincident(&refs[refs.len() - b.len()..], b, d, bounds);
+    let (costs, choices) = Costs::parent(&left.costs, &right.costs, bounds, None);
+    *node = Binary { bounds, len: len as u32, choices };
+    Done { costs, class: Some(class) }
+}
+
 impl<'a> Range<'a> {
+    /// Whether all primitives have the same box and class.
+    fn coincides(&self) -> bool {
+        self.extent.centers.min == self.extent.centers.max && self.refs.iter().all(|r| r.coincides(&self.refs[0]))
+    }
+
     /// The two parts, and the place of the range's own node.
     fn split(self, bins: &mut Bins, one_class: bool) -> ([Self; 2], &'a mut Binary) {
         let len = self.refs.len();

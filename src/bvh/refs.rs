@@ -49,6 +49,11 @@ impl Ref {
         Bounds { min: Vec3A::from_vec4(self.min), max: Vec3A::from_vec4(self.max) }
     }
 
+    /// Whether box and class are the same.
+    pub fn coincides(&self, other: &Self) -> bool {
+        self.min.truncate() == other.min.truncate() && self.max == other.max
+    }
+
     /// Half the box's middle: so that the distance of two is finite whatever the boxes.
     #[inline(always)]
     pub fn center(&self) -> Vec3A {

@@ -267,6 +267,28 @@ fn bad_inputs() {
     }
 }
 
+/// The least there can be: blocks of eight, and nodes of eight children.
+#[test]
+fn what_coincides_fills_blocks_and_nodes() {
+    for (len, blocks, nodes, depth) in
+        [(1, 1, 0, 0), (8, 1, 0, 0), (9, 2, 1, 1), (64, 8, 1, 1), (65, 9, 2, 2), (4096, 512, 73, 3)]
+    {
+        let bvh = Check::of(&Items::new(vec![Item::Sphere(Vec3::ONE, 2.0); len]));
+        assert_eq!(
+            (bvh.blocks.counts().iter().sum::<usize>(), bvh.nodes.len(), bvh.depth),
+            (blocks, nodes, depth),
+            "{len}"
+        );
+    }
+    // Two classes are parted, and what only has the same middle is.
+    let several = (0..1000).map(|i| match i % 3 {
+        0 => Item::Sphere(Vec3::ONE, 2.0),
+        1 => Item::Other(Aabb { min: Vec3::NEG_ONE, max: Vec3::splat(3.0) }),
+        _ => Item::Sphere(Vec3::ONE, 1.0 + i as f32),
+    });
+    Check::of(&Items::new(several.collect()));
+}
+
 #[test]
 fn one_huge_primitive_does_not_spoil_the_rest() {
     let alone = mixed(2000);

@@ -1,9 +1,10 @@
 //! The file of `bench --against`: what `bench --json` wrote earlier.
 
 use super::failure::Failure;
+use raypacket::files;
 use raypacket::measure::against::{Row, Run};
 use serde_json::Value;
-use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 /// The longest file that is read, in bytes; a row takes some 200.
@@ -12,14 +13,13 @@ const LONGEST: u64 = 16 << 20;
 /// Reads the file; a message names it and the key.
 pub fn read(path: &Path) -> Result<Vec<Run>, Failure> {
     let fault = |problem: String| Failure::input(format!("{}: {problem}", path.display()));
-    let meta = fs::metadata(path).map_err(|e| fault(e.to_string()))?;
-    if !meta.is_file() {
-        return Err(fault("not a regular file".into()));
-    }
+    let (file, meta) = files::open(path).map_err(|e| fault(e.to_string()))?;
     if meta.len() > LONGEST {
         return Err(fault(format!("{} bytes are more than {LONGEST}", meta.len())));
     }
-    let text = fs::read_to_string(path).map_err(|e| fault(e.to_string()))?;
+    let mut text = String::new();
+    // The file may grow.
+    file.take(LONGEST).read_to_string(&mut text).map_err(|e| fault(e.to_string()))?;
     runs(&text).map_err(fault)
 }
 

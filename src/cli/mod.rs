@@ -1,8 +1,9 @@
 //! The command line: parse, call, print; one file for each command.
 //!
-//! Exit status: 0 when all is well; 1 when it could not be done, such as without a display, on a CPU that
-//! lacks what the program was compiled for, or when `verify`, `bench` or `contest` find a wrong answer; 2 for bad input,
-//! which is found before any work starts and leaves no file behind. Errors are one line on standard error.
+//! Exit status: 0 when all is well; 1 when it could not be done, such as without a display, without enough memory, on a
+//! CPU that lacks what the program was compiled for, or when `verify`, `bench` or `contest` find a wrong answer; 2 for bad
+//! input, which is found before any work starts and leaves no file behind; 128 and the signal when one ends the program.
+//! Errors are one line on standard error.
 
 mod args;
 mod bench;
@@ -14,6 +15,7 @@ mod failure;
 mod folder;
 mod info;
 mod input;
+mod interrupt;
 mod page;
 mod plan;
 mod print;
@@ -73,6 +75,9 @@ fn version() -> &'static str {
 /// Parses the arguments and does what they say. Wrong usage ends the program here with status 2.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
+    if let Err(failure) = interrupt::watch() {
+        return failure.report();
+    }
     let done = match cli.command.unwrap_or(Command::View(cli.view)) {
         Command::View(args) => view::run(&args),
         Command::Render(args) => render::run(&args),

@@ -6,6 +6,7 @@ use raypacket::files::Target;
 use raypacket::measure::{rays, streams::Streams};
 use raypacket::scene::{Description, Scene};
 use raypacket::{Camera, math::RayBatch};
+use std::collections::HashSet;
 use std::path::Path;
 
 /// The files of some scenes, one for each kind of ray.
@@ -17,7 +18,8 @@ impl RayFiles {
     /// Makes the folder, and checks that the files of all scenes can be written.
     pub fn new(folder: &Path, scenes: &[Description]) -> Result<Self, Failure> {
         let names: Vec<String> = scenes.iter().map(|scene| file_name(&scene.name)).collect();
-        if let Some((_, twice)) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        let mut known = HashSet::new();
+        if let Some(twice) = names.iter().find(|name| !known.insert(*name)) {
             return Err(Failure::input(format!("--save-rays: two scenes would write {twice}.primary")));
         }
         folder::make(folder)?;

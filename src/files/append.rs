@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use super::{FileError, Target};
+use super::{FileError, Target, sync};
 
 /// A file that lines can be added to, as far as one can tell beforehand.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl Appender {
                 line.insert(0, b'\n');
             }
         }
-        file.write_all(&line).map_err(|e| {
+        file.write_all(&line).and_then(|()| sync(&file)).map_err(|e| {
             // Should this fail as well, there is nothing left to do.
             let _ = file.set_len(length);
             error(e)

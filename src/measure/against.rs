@@ -4,6 +4,7 @@
 //! 2.5 % at the least where the program ran fewer than three times, as memory lies elsewhere every time. The ratio of two
 //! rates may be off by both. A difference is beyond noise when 1 lies outside of what is left.
 
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 use super::bench::Report;
@@ -131,14 +132,15 @@ impl Comparison {
     /// Compares two runs of several scenes. A scene that a run has several times counts as several runs of it.
     pub fn new(old: &[Run], new: &[Run]) -> Self {
         let [before, now] = [sides(old), sides(new)];
-        let missing = |these: &[Side], others: &[Side]| {
-            let alone = these.iter().filter(|side| find(others, &side.key).is_none());
+        let [known_before, known_now] = [places(&before), places(&now)];
+        let missing = |these: &[Side], others: &Places<'_>| {
+            let alone = these.iter().filter(|side| !others.contains_key(&side.key));
             alone.map(|side| side.key.clone()).collect()
         };
         let mut warnings = differences(old, new);
         let mut pairs = Vec::new();
         for side in &now {
-            let Some(earlier) = find(&before, &side.key) else { continue };
+            let Some(earlier) = known_before.get(&side.key).map(|&place| &before[place]) else { continue };
             if (side.rays - earlier.rays).abs() > SAME_WORK * earlier.rays {
                 let (what, [a, b]) = (side.key.join(" "), [earlier, side].map(|side| side.rays));
                 warnings.push(format!("other rays: {what} had {a}, and has {b} now"));
@@ -146,7 +148,7 @@ impl Comparison {
             pairs.push(pair(earlier, side));
         }
         let built = old.first().map_or_else(Default::default, |run| run.built.clone());
-        Self { built, warnings, pairs, gone: missing(&before, &now), added: missing(&now, &before) }
+        Self { built, warnings, pairs, gone: missing(&before, &known_now), added: missing(&now, &known_before) }
     }
 }
 
@@ -158,21 +160,26 @@ struct Side {
     spread: f64,
 }
 
-fn find<'a>(sides: &'a [Side], key: &[String; 3]) -> Option<&'a Side> {
-    sides.iter().find(|side| side.key == *key)
+/// Where the row of each key is.
+type Places<'a> = HashMap<&'a [String; 3], usize>;
+
+fn places(sides: &[Side]) -> Places<'_> {
+    sides.iter().enumerate().map(|(place, side)| (&side.key, place)).collect()
 }
 
 /// Puts the rows with the same scene, query and kernel together: their median, and the largest of their spreads and of the
 /// spread of their medians. Rows without a rate are left out.
 fn sides(runs: &[Run]) -> Vec<Side> {
     let mut keys: Vec<([String; 3], Vec<&Row>)> = Vec::new();
+    let mut known: HashMap<[String; 3], usize> = HashMap::new();
     for run in runs {
         for row in run.rows.iter().filter(|row| row.mrays > 0.0) {
             let key = [&run.scene, &row.query, &row.kernel].map(String::clone);
-            match keys.iter_mut().find(|(known, _)| *known == key) {
-                Some((_, rows)) => rows.push(row),
-                None => keys.push((key, vec![row])),
-            }
+            let place = *known.entry(key).or_insert_with_key(|key| {
+                keys.push((key.clone(), Vec::new()));
+                keys.len() - 1
+            });
+            keys[place].1.push(row);
         }
     }
     let side = |(key, rows): ([String; 3], Vec<&Row>)| {
@@ -208,13 +215,13 @@ fn pair(old: &Side, new: &Side) -> Pair {
 
 /// What is not alike in runs of the same scene, said once each.
 fn differences(old: &[Run], new: &[Run]) -> Vec<String> {
-    let mut found = Vec::new();
+    let (mut found, mut known) = (Vec::new(), HashSet::new());
     for run in new {
         for earlier in old.iter().filter(|earlier| earlier.scene == run.scene) {
             for ((name, was), (_, is)) in earlier.setting.iter().zip(&run.setting) {
-                let line = format!("other {name}: {was} before, {is} now");
-                if was != is && !found.contains(&line) {
-                    found.push(line);
+                let line = || format!("other {name}: {was} before, {is} now");
+                if was != is && known.insert(line()) {
+                    found.push(line());
                 }
             }
         }

@@ -1,10 +1,10 @@
 //! Ray files: little-endian `f32`, eight a ray: origin xyz, t_min, direction xyz, t_max; t_max < 0 marks an
 //! inactive ray.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
+use crate::files;
 use crate::math::{BATCH, RayBatch};
 use glam::Vec3;
 
@@ -17,7 +17,7 @@ const UNIT: f32 = 1e-5;
 /// Why a ray file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum RayFileError {
-    /// The file cannot be read.
+    /// The file cannot be read, or is none: a pipe, a device or a folder.
     #[error("{}: {source}", path.display())]
     Io {
         /// The file.
@@ -32,12 +32,6 @@ pub enum RayFileError {
         path: PathBuf,
         /// Its size.
         bytes: u64,
-    },
-    /// A pipe, a device or a folder.
-    #[error("{}: not a regular file", path.display())]
-    NotAFile {
-        /// The path.
-        path: PathBuf,
     },
     /// A file without an active ray.
     #[error("{}: no active ray", path.display())]
@@ -64,11 +58,7 @@ pub enum RayFileError {
 /// 1 or whose numbers are not finite (t_max may be infinite).
 pub fn read(path: &Path) -> Result<Vec<RayBatch>, RayFileError> {
     let io = |source| RayFileError::Io { path: path.into(), source };
-    let file = File::open(path).map_err(io)?;
-    let meta = file.metadata().map_err(io)?;
-    if !meta.is_file() {
-        return Err(RayFileError::NotAFile { path: path.into() });
-    }
+    let (file, meta) = files::open(path).map_err(io)?;
     let bytes = meta.len();
     if bytes % RECORD as u64 != 0 {
         return Err(RayFileError::Length { path: path.into(), bytes });

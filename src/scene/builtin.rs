@@ -74,6 +74,8 @@ pub fn load_with_progress(name_or_path: &str, progress: Progress<'_>) -> Result<
                 let file = format!("scenes/{}.toml", builtin.name);
                 parse_with(builtin.source, Path::new(&file), &Assets::Builtin, progress)
             }
+            // What is there and no regular file: the reader says so.
+            None if path.exists() => read_with_progress(path, progress),
             None => {
                 Err(ReadError::Unknown { name: name_or_path.into(), builtins: BUILTINS.map(|b| b.name).join(", ") })
             }

@@ -84,7 +84,7 @@ fn distance(bounds: &Aabb, from: DVec3) -> f64 {
 }
 
 /// How far the farthest point of a box is.
-fn farthest(bounds: &Aabb, from: DVec3) -> f64 {
+pub(super) fn farthest(bounds: &Aabb, from: DVec3) -> f64 {
     (from - bounds.min.as_dvec3()).abs().max((bounds.max.as_dvec3() - from).abs()).length()
 }
 

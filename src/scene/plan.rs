@@ -1,10 +1,12 @@
 //! The tracer's plan for a scene, decided once when it is compiled.
 
+use std::cell::Cell;
+
 use glam::Vec3;
 
 use super::choose::{self, Chosen};
 use super::kinds::{KINDS, Kind, KindName, each_kind};
-use super::{CompileOptions, Description, Material, Sides};
+use super::{CompileOptions, Description, Light, Material, Sides};
 use crate::bvh::Aabb;
 use crate::geometry::methods::{Methods, SphereMethod, TerminatorMethod, TriangleMethod};
 
@@ -117,7 +119,7 @@ impl Plan {
             refracts: glasses > 0,
             absorbs: count(&|m| m.transmission > 0.0 && m.absorption != Vec3::ZERO) > 0,
             highlights: count(&|m| m.specular > 0.0) > 0,
-            shadows: description.lights.iter().map(|l| shadow_start(description, l.position)).collect(),
+            shadows: shadow_starts(description),
             methods,
             why: if methods.sphere == chosen.method { chosen.reason } else { "as asked for".to_owned() },
             materials: used.len(),
@@ -156,14 +158,34 @@ fn is_rare<K: Kind>(all: &[K]) -> bool {
     all.iter().any(|element| !K::PLAIN || element.sides() != Sides::Both)
 }
 
-/// Where the shadow rays of a light at `position` start.
-fn shadow_start(description: &Description, position: Vec3) -> ShadowStart {
-    let distance = |p: Vec3| (p.as_dvec3() - position.as_dvec3()).length();
-    let near = |p: Vec3, size: f64| distance(p) <= f64::from(Plan::FARTHEST) * size;
+/// Up to so many questions, every light is held against every primitive.
+const MANY: usize = 1 << 26;
+
+/// Where the shadow rays of each light start.
+///
+/// Time is about linear in lights and primitives together. A light that the smallest primitive would be near to anywhere in
+/// the box around them all is near to each. Where that is not so, and lights times primitives are more than [`MANY`], the
+/// rays start at the point, which is always right.
+fn shadow_starts(description: &Description) -> Vec<ShadowStart> {
     let camera = &description.camera;
     let view = (camera.look_at.as_dvec3() - camera.eye.as_dvec3()).length();
-    let kinds = each_kind!(description, |all| all.iter().all(|element| element.near(&near)));
-    if near(camera.eye, view) && !kinds.contains(&false) { ShadowStart::Light } else { ShadowStart::Point }
+    let extent = Cell::new((Aabb::EMPTY, f64::INFINITY));
+    let add = |p: Vec3, size: f64| {
+        let (around, least) = extent.get();
+        extent.set((around.extend(p), least.min(size)));
+        true
+    };
+    let _ = each_kind!(description, |all| all.iter().all(|element| element.near(&add)));
+    let (around, least) = extent.get();
+    let few = description.lights.len().saturating_mul(description.primitives()) <= MANY;
+    let start = |light: &Light| {
+        let position = light.position.as_dvec3();
+        let near = |p: Vec3, size: f64| (p.as_dvec3() - position).length() <= f64::from(Plan::FARTHEST) * size;
+        let each = || !each_kind!(description, |all| all.iter().all(|element| element.near(&near))).contains(&false);
+        let all = choose::farthest(&around, position) <= f64::from(Plan::FARTHEST) * least;
+        if near(camera.eye, view) && (all || few && each()) { ShadowStart::Light } else { ShadowStart::Point }
+    };
+    description.lights.iter().map(start).collect()
 }
 
 /// The materials that some primitive wears.
@@ -176,4 +198,49 @@ fn used_materials(description: &Description) -> Vec<&Material> {
     };
     each_kind!(description, |all| all.iter().for_each(|element| element.materials(&mut wear)));
     description.materials.iter().zip(used).filter_map(|(material, used)| used.then_some(material)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Sphere;
+
+    /// Lights at so many places, and spheres at so many.
+    fn scene(lights: [f32; 2], spheres: [f32; 2], count: usize) -> Description {
+        let at = |[from, to]: [f32; 2], i: usize| Vec3::X * if i.is_multiple_of(2) { from } else { to };
+        let sphere = |i| Sphere { center: at(spheres, i), radius: 1.0, sides: Sides::Both, material: 0 };
+        let light = |i| Light { position: at(lights, i), power: Vec3::ONE };
+        let mut description = Description {
+            lights: (0..count).map(light).collect(),
+            spheres: (0..count).map(sphere).collect(),
+            ..Description::default()
+        };
+        // Of the eye only what it looks at counts.
+        description.camera.look_at = Vec3::Z * 1e9;
+        description
+    }
+
+    /// From 1024 sizes on a light is far: from the farther of the spheres, if not from the nearer.
+    #[test]
+    fn far_lights_start_at_the_point() {
+        use ShadowStart::{Light, Point};
+        for (spheres, expected) in [([0.0, 0.0], [Light, Point]), ([2000.0, 900.0], [Point, Light])] {
+            let starts = shadow_starts(&scene([0.0, 1100.0], spheres, 10));
+            assert_eq!(starts[..2], expected, "{spheres:?}");
+        }
+        assert_eq!(shadow_starts(&scene([0.0, 1e6], [0.0, 0.0], 1)), [Light]);
+    }
+
+    /// One by one, these would be 2³⁴ questions. Where the box around all does not answer them, the point is right.
+    #[test]
+    fn many_lights_and_spheres_take_linear_time() {
+        use ShadowStart::{Light, Point};
+        let count = 1 << 17;
+        assert_eq!(shadow_starts(&scene([0.0, 1100.0], [0.0, 0.0], count))[..2], [Light, Point]);
+        let mut sizes = scene([500.0, 0.0], [0.0, 600.0], count);
+        assert_eq!(shadow_starts(&sizes)[..2], [Light, Light]);
+        sizes.spheres[0].radius = 0.5;
+        // Near to each, but not to the smallest wherever it were.
+        assert_eq!(shadow_starts(&sizes)[..2], [Light, Point]);
+    }
 }

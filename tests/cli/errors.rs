@@ -190,3 +190,29 @@ fn charts_into_no_folder() {
     assert_eq!(names(&folder.path().join("charts")), ["epsilon.csv"]);
     assert_eq!(names(folder.path()), ["charts", "good.toml"]);
 }
+
+/// Nothing is waited for: neither for somebody who writes to a pipe, nor for what comes through one.
+#[cfg(unix)]
+#[test]
+fn only_regular_files_are_read() {
+    use std::process::{Command, Stdio};
+    let folder = folder();
+    for name in ["pipe", "pipe.toml", "pipe.nff"] {
+        assert!(Command::new("mkfifo").arg(folder.path().join(name)).status().unwrap().success());
+    }
+    for args in ["bench --size 8x8 --rays", "bench --size 8x8 --against", "info", "render -o a.png"] {
+        raypacket(folder.path(), &format!("{args} pipe")).failed(2, &["pipe: not a regular file"]);
+    }
+    for scene in ["pipe.toml", "pipe.nff"] {
+        raypacket(folder.path(), &format!("info {scene}")).failed(2, &[&format!("{scene}: not a regular file")]);
+    }
+    // Standard input is read when it is a file.
+    let info = |from: Stdio| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_raypacket"));
+        let output = command.args(["info", "/dev/stdin"]).stdin(from).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let file = fs::File::open(folder.path().join("good.toml")).unwrap();
+    assert_eq!(info(file.into()), (Some(0), String::new()));
+    assert_eq!(info(Stdio::piped()), (Some(2), "raypacket: /dev/stdin: not a regular file\n".into()));
+}

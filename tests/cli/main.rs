@@ -2,6 +2,8 @@
 
 mod contest;
 mod errors;
+#[cfg(unix)]
+mod interrupt;
 mod measures;
 mod pictures;
 mod runs;

@@ -28,7 +28,7 @@ impl Assets {
         Self::Folder(file.parent().unwrap_or(Path::new("")).into())
     }
 
-    /// The path by which messages name a file. Equal paths are the same file.
+    /// The path by which messages name a file.
     pub fn path(&self, name: &str) -> PathBuf {
         match self {
             Self::Folder(folder) => folder.join(name),

@@ -28,6 +28,12 @@ pub enum ReadError {
         /// Why not.
         problem: String,
     },
+    /// There is not enough memory for what the file holds.
+    #[error("{}: not enough memory to read it", one_line(path.display()))]
+    Memory {
+        /// The file.
+        path: PathBuf,
+    },
     /// A line of the file is wrong.
     #[error("{}:{line}: {key}: {problem}", one_line(file.display()))]
     At {
@@ -53,6 +59,11 @@ pub enum ReadError {
 impl ReadError {
     pub(super) fn too_long(path: &Path, limit: u64) -> Self {
         Self::File { path: path.into(), problem: format!("longer than {limit} bytes") }
+    }
+
+    /// For what could not be reserved.
+    pub(super) fn memory(path: &Path) -> Self {
+        Self::Memory { path: path.into() }
     }
 
     pub(super) fn at(file: &Path, line: usize, key: impl fmt::Display, problem: impl fmt::Display) -> Self {

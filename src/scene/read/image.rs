@@ -4,27 +4,28 @@
 //! by cameras (EXIF) are not looked at: PNG and JPEG count as sRGB, the first row is the top.
 
 use std::{
+    collections::HashMap,
     io::Cursor,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-use image::codecs::{jpeg::JpegDecoder, png::PngDecoder};
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageResult, Limits, Luma, Rgba};
+use image::codecs::jpeg::JpegDecoder;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageResult, Limits, Luma};
 
 use super::{
     assets::Assets,
     error::{ReadError, one_line},
-    radiance,
-    source::bytes_of,
+    png, radiance,
+    source::Source,
 };
-use crate::{math::linear_of_bytes, scene::Texture};
+use crate::{files::Identity, math::linear_of_bytes, scene::Texture};
 
 /// The most pixels of a side of an image.
 pub const MAX_IMAGE_SIDE: u32 = 16_384;
 
-/// The most pixels of all images of a scene together. Reading takes up to about 16 bytes of memory for
-/// each.
+/// The most pixels of all images of a scene together. Reading takes 3 bytes of memory for each pixel of a PNG texture, and up
+/// to about 16 for one of a JPEG or of a panorama; and up to about four times the length of each file.
 pub const MAX_IMAGE_PIXELS: u64 = 64 << 20;
 
 /// The most that is read from all image files of a scene together.
@@ -36,7 +37,10 @@ const NOT_PANORAMA: &str = "neither Radiance, PNG nor JPEG";
 /// The images of a scene, each texture's file read once.
 pub(super) struct Images<'a> {
     assets: &'a Assets,
-    files: Vec<PathBuf>,
+    /// The textures by the paths that were asked for, as they were spelled.
+    spelled: HashMap<PathBuf, usize>,
+    /// And by their files.
+    files: HashMap<Identity, usize>,
     /// By index.
     pub textures: Vec<Arc<Texture>>,
     bytes_left: u64,
@@ -48,39 +52,61 @@ type Panorama = (usize, usize, Vec<[f32; 3]>);
 
 impl<'a> Images<'a> {
     pub fn new(assets: &'a Assets) -> Self {
-        let (files, textures) = (Vec::new(), Vec::new());
-        Self { assets, files, textures, bytes_left: MAX_IMAGE_BYTES, pixels_left: MAX_IMAGE_PIXELS }
+        Self {
+            assets,
+            spelled: HashMap::new(),
+            files: HashMap::new(),
+            textures: Vec::new(),
+            bytes_left: MAX_IMAGE_BYTES,
+            pixels_left: MAX_IMAGE_PIXELS,
+        }
     }
 
     /// The index of a file's texture: PNG or JPEG.
     ///
-    /// Of 16 bits the upper 8 are kept, rounded; grey becomes red, green and blue. An alpha channel is dropped: the
-    /// colours show as they are stored, and the surface stays opaque.
+    /// An alpha channel is dropped: the colours show as they are stored, and the surface stays opaque.
     pub fn texture(&mut self, file: &str) -> Result<usize, ReadError> {
-        self.texture_from(self.assets.path(file), |images| images.bytes(file))
+        let path = self.assets.path(file);
+        match self.assets {
+            Assets::Folder(_) => self.texture_at(path),
+            Assets::Builtin => match self.spelled.get(&path) {
+                Some(&index) => Ok(index),
+                None => {
+                    let bytes = self.bytes(file)?;
+                    let index = self.add(&path, &bytes)?;
+                    self.spelled.insert(path, index);
+                    Ok(index)
+                }
+            },
+        }
     }
 
     /// The index of the texture of a file that a mesh names, by its whole path.
     pub fn texture_at(&mut self, path: PathBuf) -> Result<usize, ReadError> {
-        self.texture_from(path.clone(), |images| {
-            let bytes = bytes_of(&path, images.bytes_left)?;
-            images.bytes_left -= bytes.len() as u64;
-            Ok(bytes)
-        })
-    }
-
-    fn texture_from(
-        &mut self,
-        path: PathBuf,
-        bytes: impl FnOnce(&mut Self) -> Result<Vec<u8>, ReadError>,
-    ) -> Result<usize, ReadError> {
-        if let Some(index) = self.files.iter().position(|known| *known == path) {
+        if let Some(&index) = self.spelled.get(&path) {
             return Ok(index);
         }
-        let bytes = bytes(self)?;
-        let texture = self.rgb8(&bytes).map_err(|problem| fault(&path, problem))?;
+        let source = Source::open(&path)?;
+        // A file may be spelled in any number of ways, and is read once.
+        let index = match self.files.get(&source.identity) {
+            Some(&index) => index,
+            None => {
+                let identity = source.identity.clone();
+                let bytes = source.bytes(self.bytes_left)?;
+                self.bytes_left -= bytes.len() as u64;
+                let index = self.add(&path, &bytes)?;
+                self.files.insert(identity, index);
+                index
+            }
+        };
+        self.spelled.insert(path, index);
+        Ok(index)
+    }
+
+    /// Adds the texture that a file holds.
+    fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<usize, ReadError> {
+        let texture = self.rgb8(bytes).map_err(|problem| fault(path, problem))?;
         self.textures.push(texture.into());
-        self.files.push(path);
         Ok(self.textures.len() - 1)
     }
 
@@ -100,9 +126,14 @@ impl<'a> Images<'a> {
     }
 
     fn rgb8(&mut self, bytes: &[u8]) -> Result<Texture, String> {
-        let format = image::guess_format(bytes).ok();
-        let format = format.filter(|f| [ImageFormat::Png, ImageFormat::Jpeg].contains(f));
-        let image = self.decode(bytes, format.ok_or(NOT_SRGB)?)?;
+        if png::is_png(bytes) {
+            let (width, height, texels) = png::decode(bytes, |width, height| self.count(width, height))?;
+            return Ok(Texture { width, height, texels });
+        }
+        if image::guess_format(bytes).ok() != Some(ImageFormat::Jpeg) {
+            return Err(NOT_SRGB.into());
+        }
+        let image = self.jpeg(bytes).map_err(|error| error.to_string())??;
         let (width, height) = (image.width() as usize, image.height() as usize);
         Ok(Texture { width, height, texels: texels(image) })
     }
@@ -119,17 +150,20 @@ impl<'a> Images<'a> {
 
     /// The size is asked for, and judged, before there is any memory for the pixels.
     ///
-    /// The decoders are named, as `ImageReader` would have all of them compiled, OpenEXR's too.
-    fn decode(&mut self, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage, String> {
+    /// The decoder is named, as `ImageReader` would have all of them compiled, OpenEXR's too.
+    fn jpeg(&mut self, bytes: &[u8]) -> ImageResult<Result<DynamicImage, String>> {
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_IMAGE_SIDE);
         limits.max_image_height = Some(MAX_IMAGE_SIDE);
-        // Four channels of 16 bits, and what a decoder needs besides.
+        // Three channels of 8 bits, and what the decoder needs besides.
         limits.max_alloc = Some(8 * MAX_IMAGE_PIXELS + (64 << 20));
-        let decoder = decoder(Cursor::new(bytes), format, limits).map_err(|error| error.to_string())?;
+        let mut decoder = JpegDecoder::new(Cursor::new(bytes))?;
+        decoder.set_limits(limits)?;
         let (width, height) = decoder.dimensions();
-        self.count(width, height)?;
-        DynamicImage::from_decoder(decoder).map_err(|error| error.to_string())
+        Ok(match self.count(width, height) {
+            Ok(()) => Ok(DynamicImage::from_decoder(decoder)?),
+            Err(problem) => Err(problem),
+        })
     }
 
     /// Takes an image's pixels off what is left for the scene.
@@ -149,21 +183,11 @@ impl<'a> Images<'a> {
     }
 }
 
-fn decoder(bytes: Cursor<&[u8]>, format: ImageFormat, limits: Limits) -> ImageResult<Box<dyn ImageDecoder + '_>> {
-    if format == ImageFormat::Png {
-        return Ok(Box::new(PngDecoder::with_limits(bytes, limits)?));
-    }
-    let mut decoder = JpegDecoder::new(bytes)?;
-    decoder.set_limits(limits)?;
-    Ok(Box::new(decoder))
-}
-
 /// The colours alone, eight bits a channel.
 ///
 /// The common ones are converted here, as `image` is compiled without optimisation.
 fn texels(image: DynamicImage) -> Vec<[u8; 3]> {
     match image {
-        DynamicImage::ImageRgba8(image) => image.pixels().map(|&Rgba([r, g, b, _])| [r, g, b]).collect(),
         DynamicImage::ImageLuma8(image) => image.pixels().map(|&Luma([grey])| [grey; 3]).collect(),
         other => other.into_rgb8().as_raw().as_chunks().0.to_vec(),
     }

@@ -7,6 +7,7 @@ mod lines;
 mod nff;
 mod obj;
 mod place;
+mod png;
 mod polygon;
 mod radiance;
 mod source;
@@ -27,7 +28,8 @@ use source::bytes_of;
 /// The largest scene file that is read.
 ///
 /// Parsing takes up to about 250 times the file's size in memory, and 1500 bytes more for each table in braces and each
-/// part of a key before a dot, of which a file may have 2²⁰.
+/// part of a key before a dot, of which a file may have 2²⁰. Where a long file is no TOML, has an unknown key or a value of the
+/// wrong type, no more is parsed than 64 KiB, or eight times what stands before that, if it is in the first thirty-second.
 pub const MAX_TOML_BYTES: u64 = 16 << 20;
 
 /// Reads a scene file in TOML. Meshes and images are looked for beside it.

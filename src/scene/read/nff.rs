@@ -17,7 +17,7 @@
 mod tokens;
 
 use std::{
-    collections::{HashMap, hash_map::Entry},
+    collections::{HashMap, TryReserveError, hash_map::Entry},
     io::{BufRead, BufReader},
     path::Path,
 };
@@ -62,7 +62,11 @@ fn parse(
     let mut reader = Reader::new(Tokens::new(input, path, limit));
     let mut next = REPORT;
     progress(0);
-    while reader.entity()? {
+    loop {
+        reader.make_room(1).map_err(|_| ReadError::memory(path))?;
+        if !reader.entity()? {
+            break;
+        }
         if reader.tokens.bytes() >= next {
             next = reader.tokens.bytes() + REPORT;
             progress(reader.tokens.bytes());
@@ -107,6 +111,22 @@ impl<'a, R: BufRead> Reader<'a, R> {
             cones: Vec::new(),
             meshes,
         }
+    }
+
+    /// For an entity of so many corners.
+    fn make_room(&mut self, corners: usize) -> Result<(), TryReserveError> {
+        self.lights.try_reserve(1)?;
+        self.spheres.try_reserve(1)?;
+        self.cylinders.try_reserve(1)?;
+        self.cones.try_reserve(1)?;
+        self.materials.all.try_reserve(1)?;
+        self.materials.known.try_reserve(1)?;
+        self.meshes.iter_mut().filter(|_| corners > 1).try_for_each(|mesh| {
+            mesh.positions.try_reserve(corners)?;
+            mesh.normals.try_reserve(corners)?;
+            mesh.materials.try_reserve(corners)?;
+            mesh.triangles.try_reserve(corners)
+        })
     }
 
     /// Reads the next entity, unless the file ends.
@@ -247,6 +267,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
                 _ => Err(format!("must have 3 to {} corners, got {count}", polygon::MAX_CORNERS)),
             },
         )?;
+        self.make_room(count).map_err(|_| self.tokens.memory())?;
         let mesh = &mut self.meshes[mesh];
         let first = mesh.positions.len();
         let each = if smooth { 6 } else { 3 };

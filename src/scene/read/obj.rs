@@ -12,7 +12,7 @@ mod mtl;
 mod numbers;
 
 use std::{
-    collections::{HashMap, HashSet},
+    collections::{HashMap, TryReserveError},
     io::Read,
     path::Path,
 };
@@ -98,6 +98,7 @@ fn read_lines<R: Read>(
 ) -> Result<Model, ReadError> {
     let mut reader = Reader::new(path, images.is_some(), budget.triangles);
     while let Some((number, line)) = lines.next()? {
+        reader.make_room(line.len()).map_err(|_| ReadError::memory(path))?;
         reader.statement(&line, number).map_err(|(key, problem)| ReadError::at(path, number, key, problem))?;
     }
     budget.bytes -= lines.done();
@@ -154,6 +155,22 @@ impl<'a> Reader<'a> {
             corners: Vec::new(),
             groups: materials.then(|| Groups { current: NONE, ..Groups::default() }),
         }
+    }
+
+    /// For all that a line of so many bytes may add.
+    fn make_room(&mut self, length: usize) -> Result<(), TryReserveError> {
+        let Columns { positions, uvs, normals } = &mut self.columns;
+        positions.try_reserve(1)?;
+        uvs.try_reserve(1)?;
+        normals.try_reserve(1)?;
+        // A corner takes two bytes.
+        let corners = length / 2 + 1;
+        self.triangles.try_reserve(corners)?;
+        self.vertices.make_room(corners)?;
+        self.groups.as_mut().map_or(Ok(()), |groups| {
+            let missing = self.triangles.len().saturating_sub(groups.triangles.len());
+            groups.triangles.try_reserve(if groups.names.is_empty() { 0 } else { missing + corners })
+        })
     }
 
     fn statement(&mut self, line: &str, number: usize) -> Result<(), Fault> {
@@ -287,6 +304,7 @@ impl<'a> Reader<'a> {
             (Some(groups), Some(images)) => groups.materials(self.path, images, budget)?,
             _ => (Vec::new(), Vec::new(), true),
         };
+        self.vertices.room_for_mesh(&self.columns).map_err(|_| ReadError::memory(self.path))?;
         let mesh = self.vertices.mesh(self.columns, self.triangles);
         Ok(Model { mesh: Mesh { materials: by_triangle, ..mesh }, materials, bare })
     }
@@ -301,17 +319,12 @@ impl Groups {
         budget: &mut Budget,
     ) -> Result<(Vec<Material>, Vec<u32>, bool), ReadError> {
         let mut library = Library::default();
-        let mut read = HashSet::new();
         for (file, line) in &self.libraries {
             let file = path.with_file_name(file);
-            if read.contains(&file) {
-                continue;
-            }
             library.read(&file, budget).map_err(|error| match error {
                 ReadError::At { .. } => error,
                 _ => ReadError::at(path, *line, "mtllib", error),
             })?;
-            read.insert(file);
         }
         // Names alone mean nothing.
         if self.libraries.is_empty() {

@@ -328,6 +328,18 @@ fn textures_are_beside_their_library() {
 }
 
 #[test]
+fn a_library_is_read_once_however_it_is_spelled() {
+    let libraries: String = (0..300).map(|i| format!("mtllib {}a.mtl\n", "d/../".repeat(i % 150))).collect();
+    let (obj, mtl) = (format!("{libraries}{SQUARE}usemtl x\nf 1 2 3\n"), "newmtl x\nKd 1 0 0\n");
+    let f = Folder::new(&[("m.obj", obj.as_bytes()), ("a.mtl", mtl.as_bytes())]);
+    fs::create_dir(f.path("d")).unwrap();
+    let assets = Assets::beside(&f.path("m.obj"));
+    let mut budget = Budget::default();
+    read_path(&f.path("m.obj"), Some(&mut Images::new(&assets)), &mut budget, &mut |_, _| ()).unwrap();
+    assert_eq!(MAX_OBJ_BYTES - budget.bytes, (obj.len() + mtl.len()) as u64);
+}
+
+#[test]
 fn a_scenes_material_counts_before_those_of_the_file() {
     let text = format!("{SQUARE}f 1 2 3 4\nmtllib a.mtl\nusemtl red\nf 1 2 4\nf 1 2 3\n");
     let f = Folder::new(&[("m.obj", text.as_bytes())]);

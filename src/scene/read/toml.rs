@@ -1,8 +1,10 @@
 //! The scene file format: TOML to [`Description`].
 
+mod early;
 pub(in crate::scene) mod elements;
 mod file;
 mod materials;
+mod need;
 pub(in crate::scene) mod value;
 mod view;
 
@@ -24,9 +26,16 @@ pub(super) fn parse(
     assets: &Assets,
     progress: Progress<'_>,
 ) -> Result<Description, ReadError> {
-    if tables(text) > MAX_TABLES {
+    let tables = tables(text);
+    if tables > MAX_TABLES {
         return Err(ReadError::File { path: file.into(), problem: format!("more than {MAX_TABLES} tables") });
     }
+    match early::fault(text) {
+        Some((part, early::Fault::Syntax(error))) => return Err(syntax(part, file, &error)),
+        Some((part, early::Fault::Shape(misfit))) => return Err(shape(part, file, &misfit)),
+        None => {}
+    }
+    Vec::<u8>::new().try_reserve_exact(need::bytes(text, tables)).map_err(|_| ReadError::memory(file))?;
     let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
     let scene = SceneFile::read(table.into_inner()).map_err(|misfit| shape(text, file, &misfit))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -106,6 +106,11 @@ impl<'a, R: BufRead> Tokens<'a, R> {
         ReadError::at(self.path, line, key, problem)
     }
 
+    /// There is not enough memory.
+    pub fn memory(&self) -> ReadError {
+        ReadError::memory(self.path)
+    }
+
     /// A fault of the next token.
     pub fn strange(&self, problem: impl std::fmt::Display) -> ReadError {
         ReadError::at(self.path, self.reached, String::from_utf8_lossy(&self.token), problem)

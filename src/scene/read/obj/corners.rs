@@ -1,6 +1,6 @@
 //! From the corners of faces, which number position, texture coordinates and normal apart, to the vertices of a mesh.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, TryReserveError};
 
 use glam::{Vec2, Vec3};
 
@@ -38,6 +38,23 @@ impl Vertices {
         }
         vertices.clear();
         vertices.extend(face.iter().map(|triple| if self.several { self.find(*triple) } else { triple[0] }));
+    }
+
+    /// For so many corners more.
+    pub fn make_room(&mut self, corners: usize) -> Result<(), TryReserveError> {
+        if !self.several {
+            return Ok(());
+        }
+        self.triples.try_reserve(corners)?;
+        self.known.try_reserve(corners)
+    }
+
+    /// For what [`Vertices::mesh`] makes.
+    pub fn room_for_mesh(&self, columns: &Columns) -> Result<(), TryReserveError> {
+        let uv = if columns.uvs.is_empty() { 0 } else { size_of::<Vec2>() };
+        let normal = if columns.normals.is_empty() { 0 } else { size_of::<Vec3>() };
+        let vertices = if self.several { self.triples.len() } else { 0 };
+        Vec::<u8>::new().try_reserve_exact(vertices * (size_of::<Vec3>() + uv + normal))
     }
 
     /// The index of the position of a vertex.

@@ -13,7 +13,7 @@
 //! Reflection at glass (`illum` 4, 6, 7, 9) is what transmission brings with it. Everything else is ignored.
 
 use std::{
-    collections::HashMap,
+    collections::{HashMap, HashSet},
     io::Read,
     path::{Path, PathBuf},
     rc::Rc,
@@ -22,9 +22,10 @@ use std::{
 use glam::Vec3;
 
 use super::{budget::Budget, numbers::numbers};
+use crate::files::Identity;
 use crate::scene::{
     Material, Pigment, Wrap,
-    read::{error::ReadError, image::Images, lines::Lines},
+    read::{error::ReadError, image::Images, lines::Lines, source::Source},
     rules,
 };
 
@@ -32,6 +33,8 @@ use crate::scene::{
 #[derive(Default)]
 pub(super) struct Library {
     entries: HashMap<String, Entry>,
+    /// The files that they are from, however they were spelled.
+    files: HashSet<Identity>,
 }
 
 /// A material as its file gives it.
@@ -50,11 +53,16 @@ struct Entry {
 }
 
 impl Library {
-    /// Adds the materials of a file. An error is of the file as a whole ([`ReadError::Io`], [`ReadError::File`]) or
+    /// Adds the materials of a file, unless it has been read. An error is of the file as a whole ([`ReadError::Io`], [`ReadError::File`]) or
     /// of one of its lines.
     pub fn read(&mut self, path: &Path, budget: &mut Budget) -> Result<(), ReadError> {
+        let source = Source::open(path)?;
+        if !self.files.insert(source.identity.clone()) {
+            return Ok(());
+        }
+        let (file, length) = source.within(budget.bytes)?;
         let mut ignore = |_, _| ();
-        let lines = Lines::open(path, budget.bytes, &mut ignore)?;
+        let lines = Lines::new(file, path, (budget.bytes, length), &mut ignore);
         budget.bytes -= self.read_lines(lines, path)?;
         Ok(())
     }
