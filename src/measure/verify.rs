@@ -19,7 +19,8 @@
 //! - k·u·s in its origin, where s is the largest of |E|, |p| and the size of the primitives that were hit (a sphere's
 //!   radius, a triangle's longest edge); E is the eye and p the point the reference hit,
 //! - k·u·s' in where a secondary ray hits, and up to k·u·s' in how far one starts off its surface and ends before a
-//!   light, where s' is s for that surface and without the eye.
+//!   light, where s' is s for that surface and without the eye. In how far one starts off a transparent surface, s' is
+//!   Σ |nᵢ pᵢ| and the primitive's size, with n the normal: so a body that is thin beside its coordinates is no excuse.
 //!
 //! The reference answers [`ROUNDS`] such questions, spread evenly over those differences, and
 //! - a differing hit is explained when one of them hits that primitive, or would but for another that is not nearer by

@@ -53,6 +53,8 @@ struct Point<'a> {
     distance: f64,
     /// The size of the numbers that made `position`.
     scale: f64,
+    /// The primitive's own.
+    extent: f64,
     material: &'a Material,
     index: usize,
     base: DVec3,
@@ -223,6 +225,7 @@ impl Tracer {
             front: outward.dot(direction) <= 0.0,
             distance: hit.t,
             scale,
+            extent: primitive.extent(),
             material,
             index: primitive.material(),
             base,
@@ -259,7 +262,16 @@ impl Point<'_> {
     /// Where a secondary ray starts: off the surface by more than the rounding of its position, on the side that the
     /// ray came from (1) or on the other (−1).
     fn lifted(&self, rounding: &Rounding, side: f64) -> DVec3 {
-        self.position + side * rounding.lift * self.scale * self.normal
+        self.position + side * rounding.lift * self.size() * self.normal
+    }
+
+    /// The size that the lift is relative to. Of a transparent body's only what counts along the normal: a rougher lift would
+    /// excuse a picture that does not show how thin the body is.
+    fn size(&self) -> f64 {
+        match self.material.transmission > 0.0 {
+            true => self.extent + (self.normal * self.position).abs().element_sum(),
+            false => self.scale,
+        }
     }
 }
 

@@ -1,10 +1,11 @@
 //! Transparent bodies, and gaps between them, that are thin beside their coordinates.
 
 use glam::{Vec3, vec3};
-use raypacket::measure::verify::verify;
+use raypacket::geometry::methods::{Choice, OffsetMethod};
+use raypacket::measure::verify::{verify, verify_with};
 use raypacket::render::Kernel;
 use raypacket::scene::{CameraDescription, Description, Material, Pigment, Quad, Sky};
-use raypacket::{Cuboid, Disc};
+use raypacket::{CompileOptions, Cuboid, Disc};
 
 use crate::common::{empty, mesh, picture, plane};
 
@@ -84,6 +85,18 @@ fn a_pane_far_from_the_origin_is_not_solid() {
             pane(&mut scene, vec3(x - 5.0, -4.0, -0.004), vec3(x + 7.0, 6.0, 0.0));
             holds(&scene, &format!("kind {kind} at {x}"));
         }
+    }
+}
+
+/// By the largest coordinate, as rays were lifted once, the pane turns solid, and that has no excuse.
+#[test]
+fn verify_tells_of_a_pane_that_turned_solid() {
+    for x in [7500.0, 20000.0] {
+        let mut scene = view(x);
+        by_box(&mut scene, vec3(x - 5.0, -4.0, -0.004), vec3(x + 7.0, 6.0, 0.0));
+        let solid = CompileOptions { methods: vec![Choice::Offset(OffsetMethod::Scaled)], ..CompileOptions::default() };
+        let report = verify_with(&scene, &solid, &[Kernel::X8], 24, 16);
+        assert!(!report.pass && report.kernels[0].comparison.pixels_unexplained > 100, "{report:?}");
     }
 }
 
