@@ -404,10 +404,6 @@ fn values_out_of_range() {
         "s.toml:3: light[0].power: must be finite and 0 or more, got [0, 0, -1]",
     );
     fault(
-        "[[light]]\nposition = [0, 0, 0]\npower = [0, 0, 1e30]",
-        "s.toml:3: light[0].power: must be at most 1e27, got [0, 0, 1000000000000000000000000000000]",
-    );
-    fault(
         "[[light]]\nposition = [0, 0, inf]\npower = [0, 0, 1]",
         "s.toml:2: light[0].position: must be finite and within ±1e18, got [0, 0, inf]",
     );

@@ -26,7 +26,7 @@
 //! moved by 2 ε |o − center| + 4 ε radius.
 //!
 //! - From inside the material and from the surface the ray meets the next change of state. A ray that starts on a
-//!   face counts as beyond it already.
+//!   face counts as beyond it already. `t_min` chooses among the changes from the origin on, and moves none.
 //! - A ray that runs in the plane of a face sees what is on one side of it: above, or on the cube's border inside.
 //! - Without iterations it is the closed cube, as [`super::cuboid`] says.
 
@@ -382,7 +382,8 @@ pub fn sphere_trace<L: Lanes>(
 ) -> LaneHits<L> {
     let radius = Vec3::new(seen.radius, seen.radius, seen.radius);
     let (enter, exit) = face::between(-radius - seen.f, radius - seen.f, aim);
-    let open = enter.le(exit) & exit.gt(t_min) & enter.lt(t_max);
+    // The last plane's t may round to more than where the ray leaves, so that `t_min` does not count here.
+    let open = enter.le(exit) & exit.gt(t_min.min(L::zero())) & enter.lt(t_max);
     if !open.any() {
         return None;
     }
@@ -393,15 +394,16 @@ pub fn sphere_trace<L: Lanes>(
 }
 
 impl<L: Lanes> March<L> {
-    /// Where rays enter the cube, or at `t_min` inside it.
+    /// Where rays enter the cube, or at their origin inside it, from where on what they pass does not hang on `t_min`.
     #[inline(always)]
     fn new(seen: &SeenFractal<L>, iterations: Iterations, aim: &Aim<L>, enter: L, t_min: L, open: L::Mask) -> Self {
         let grid = Grid::new(seen.radius, iterations.0);
         let d = aim.direction;
         let origin = face::by_sign(d, seen.f, -seen.f);
         let direction = Vec3::new(d.x.abs(), d.y.abs(), d.z.abs());
-        let outside = enter.gt(t_min);
-        let begin = enter.select(outside, t_min);
+        let zero = L::zero();
+        let outside = enter.gt(zero) | t_min.lt(zero);
+        let begin = enter.select(outside, zero);
         let start = grid.place(direction.mul_add(begin, origin));
         // On the face by which a ray enters, its first cell is known without rounding.
         let first = seen.radius;
@@ -410,7 +412,7 @@ impl<L: Lanes> March<L> {
         let least = -grid.last();
         let cell = face::by_axis(at, Vec3::new(least, least, least), grid.cell(start));
         let clearance = grid.clearance(cell);
-        let found = open & outside & clearance.lt(L::zero());
+        let found = open & outside & clearance.lt(zero) & enter.gt(t_min);
         Self {
             grid,
             origin,

@@ -12,6 +12,8 @@ pub mod cone;
 pub mod cuboid;
 pub mod cylinder;
 pub mod disc;
+#[cfg(test)]
+mod edge_on_tests;
 pub(crate) mod face;
 mod flat;
 pub mod fractal;

@@ -1,8 +1,13 @@
 //! The parallelogram corner + a u + b v, a and b from 0 to 1, seen from both sides.
 //!
-//! One method: [`moller_trumbore`] ([`super::triangle`]) with both coordinates up to 1. The plane is missed by at most
-//! 8 ε (|o − corner| + longest edge) / sin of the angle between the edges. Edges belong to the quad. A ray in its plane
-//! misses it.
+//! One method, [`planar`], as discs have it ([`super::disc`]): the ray meets the plane at t = −(T·n) / (d·n), with
+//! T = o − corner and the unit normal n, and a and b are what q = T + t d there has along two vectors in the plane, each of
+//! which is across one edge. So a hit is where q is on the quad, also where a ray is nearly in its plane and t is off by
+//! much; it is none where rounding moves q off it. (Möller's and Trumbore's a and b, as triangles have them, are those of
+//! the line and not of q, so that t may be anything then.)
+//!
+//! As with discs, the plane is missed by at most 8 ε (|o − corner| + longest edge), and rounding acts as if the origin were
+//! moved by as much over the sine of the angle between the edges. Edges belong to the quad. A ray in its plane misses it.
 
 use super::numbers::numbers;
 use super::{Balls, Bounded, Cull, Footing, LaneHits, Mapping, Never, Number, Primitives, Surface, columns, flat};
@@ -19,6 +24,8 @@ pub struct Quads {
     pub v: [Vec<f32>; 3],
     /// Unit normals, u × v; for shading.
     pub unit: Vec<glam::Vec3>,
+    /// Vectors in the plane: across v, and 1 along u; and the other way round.
+    across: Vec<[glam::Vec3; 2]>,
     /// The longest edge over the sine of the angle between the edges.
     pub reach: Vec<f32>,
     /// Indices into the scene's materials.
@@ -32,22 +39,22 @@ numbers! {
     QuadShape {
         /// Its corner.
         corner: Vec3,
-        /// Its first edge.
-        u: Vec3,
-        /// Its second edge.
-        v: Vec3,
+        /// Its unit normal.
+        normal: Vec3,
+        /// What tells a and b.
+        across: [Vec3; 2],
         /// The box around it.
         bounds: [Vec3; 2],
     }
-    /// A quad as seen from the rays' origin, with T = o − corner.
+    /// A quad as seen from the rays' origin.
     SeenQuad {
-        /// N = u × v.
-        n: Vec3,
-        /// T × v.
-        u: Vec3,
-        /// u × T.
-        v: Vec3,
-        /// −T·N.
+        /// T = o − corner.
+        from: Vec3,
+        /// Its unit normal.
+        normal: Vec3,
+        /// What tells a and b.
+        across: [Vec3; 2],
+        /// −T·n.
         height: T,
     }
 }
@@ -62,6 +69,7 @@ impl Quads {
         let [u, v] = [u, v].map(|e| e.as_dvec3());
         let n = u.cross(v);
         self.unit.push(n.normalize().as_vec3());
+        self.across.push([v.cross(n), n.cross(u)].map(|w| (w / n.length_squared()).as_vec3()));
         self.reach.push((u.length().max(v.length()) * (u.length() * v.length() / n.length())) as f32);
         self.boxes.push(self.enclose(self.material.len() - 1));
         self.balls.push_around(self.bounds(self.material.len() - 1));
@@ -120,8 +128,8 @@ impl Primitives for Quads {
     }
     #[inline(always)]
     fn shape(&self, i: usize) -> QuadShape<f32> {
-        let [corner, u, v] = map3(self.corner_and_edges(i), Vec3::from);
-        QuadShape { corner, u, v, bounds: map2(self.boxes[i], Vec3::from) }
+        let [corner, normal] = map2([columns::at(&self.corner, i), self.unit[i]], Vec3::from);
+        QuadShape { corner, normal, across: map2(self.across[i], Vec3::from), bounds: map2(self.boxes[i], Vec3::from) }
     }
     #[inline]
     fn variant(&self, _: usize) {}
@@ -135,10 +143,9 @@ impl Primitives for Quads {
     }
     #[inline(always)]
     fn seen<L: Lanes>(quad: &QuadShape<L>, (): (), origin: Vec3<L>) -> SeenQuad<L> {
-        let QuadShape { corner, u, v, .. } = *quad;
-        let n = u.cross(v);
-        let t = origin - corner;
-        SeenQuad { n, u: t.cross(v), v: u.cross(t), height: -t.dot(n) }
+        let QuadShape { corner, normal, across, .. } = *quad;
+        let from = origin - corner;
+        SeenQuad { from, normal, across, height: -from.dot(normal) }
     }
     #[inline(always)]
     fn splat_seen<L: Lanes>(seen: &SeenQuad<f32>) -> SeenQuad<L> {
@@ -146,7 +153,7 @@ impl Primitives for Quads {
     }
     #[inline(always)]
     fn nearest<L: Lanes>(seen: &SeenQuad<L>, (): (), d: &Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-        moller_trumbore(seen, *d, t_min, t_max)
+        planar(seen, *d, t_min, t_max)
     }
 
     #[inline(always)]
@@ -176,16 +183,17 @@ impl Primitives for Quads {
 
 /// See the module's text.
 #[inline(always)]
-pub fn moller_trumbore<L: Lanes>(seen: &SeenQuad<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
-    let inverse = L::splat(1.0) / seen.n.dot(direction);
-    let t = seen.height * inverse;
+pub fn planar<L: Lanes>(seen: &SeenQuad<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let SeenQuad { from, normal, across: [across_v, across_u], height } = *seen;
+    // In the plane, infinite or NaN.
+    let t = height / normal.dot(direction);
     let inside = t.gt(t_min) & t.lt(t_max);
     if !inside.any() {
         return None;
     }
-    let u = seen.u.dot(direction) * inverse;
-    let v = seen.v.dot(direction) * inverse;
-    let inside = inside & L::zero().le(u.min(v)) & u.max(v).le(L::splat(1.0));
+    let q = direction.mul_add(t, from);
+    let (a, b) = (q.dot(across_v), q.dot(across_u));
+    let inside = inside & L::zero().le(a.min(b)) & a.max(b).le(L::splat(1.0));
     inside.any().then_some((t, inside))
 }
 
@@ -202,8 +210,7 @@ mod tests {
 
     fn hit(origin: V, direction: V) -> Option<f32> {
         let quads = quads();
-        moller_trumbore(&Quads::seen(&quads.shape(0), (), origin.into()), direction.into(), 0.0, f32::INFINITY)
-            .map(|(t, _)| t)
+        planar(&Quads::seen(&quads.shape(0), (), origin.into()), direction.into(), 0.0, f32::INFINITY).map(|(t, _)| t)
     }
 
     #[test]

@@ -34,7 +34,12 @@
 //! sizes everything is a matter of rounding, and NaN hits nothing.
 //!
 //! **Inside, and on the surface.** From inside the far side is hit. An origin within 8 ε (R + r) of the surface counts
-//! as on it: a ray that leaves it hits nothing there, one that enters the far side.
+//! as on it, and its own root does not count: a ray that leaves it hits nothing there, one that enters the far side. One
+//! that grazes it, and would come back before it is farther off than that, does not come back: outside of a bulge it
+//! stays outside, along a hollow inside. So what it meets beyond is found, whichever way rounding turns it at the start.
+//! (Where polynomials are solved, the root at the start is divided out.)
+//!
+//! **`t_min`** chooses among the roots from the origin on, and does not change them.
 
 mod ferrari;
 mod sphere_trace;
@@ -287,42 +292,88 @@ impl Test<Tori> for TorusMethod {
 /// The default; see the module's text.
 #[inline(always)]
 pub fn monotone_newton<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    let (mut t, mut found) = first::<L, false>(seen, direction, t_min, t_max)?;
+    if (found & t.le(t_min)).any() {
+        // A copy is handed over, so that the numbers themselves stay in registers.
+        let seen = *seen;
+        (t, found) = later(&seen, direction, t_min, t_max)?;
+    }
+    let inside = found & t.gt(t_min) & t.lt(t_max);
+    inside.any().then_some((t, inside))
+}
+
+/// The first roots that lie after `t_min`, where those that come before are many.
+#[inline(never)]
+fn later<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
+    first::<L, true>(seen, direction, t_min, t_max)
+}
+
+/// The first root from the ray's origin on; `LATER` passes over those that do not lie after `t_min`. Which roots there
+/// are does not depend on `t_min`, unless that is below zero: then all along the line count.
+#[inline(always)]
+fn first<L: Lanes, const LATER: bool>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let per_major = L::splat(1.0) / seen.major;
     let d = along(&seen.axes, direction);
     let b = seen.f.dot(d);
     let q = d.mul_add(-b, seen.f);
-    let [start, end] = map2([t_min, t_max], |t| t.mul_add(per_major, b));
-    let span = Span::around(seen.kappa, q, d, [start, end])?;
+    let start = L::splat(f32::NEG_INFINITY).select(t_min.lt(L::zero()), b);
+    let span = Span::around(seen.kappa, q, d, [start, t_max.mul_add(per_major, b)])?;
     let path = Path::new(q, d, &span, seen.kappa, seen.near);
-    let at_first = path.sample(path.ends[0]);
+    let [low, high] = path.ends;
+    let [bend, unbend] = path.inflections;
+    let at_first = path.sample(low);
     // 2 κ times the distance from the surface.
     let on_level = (seen.kappa + seen.kappa) * (L::splat(1.0) + seen.kappa) * L::splat(ON);
     let on = !span.entered & at_first.value.abs().le(on_level);
-    let [low, high] = path.ends;
-    let [bend, unbend] = path.inflections;
-    let concave_start = bend.le(low) & unbend.gt(low);
-    let turned_in = at_first.rise.lt(L::zero()) | (at_first.rise.eq(L::zero()) & concave_start);
-    let inside = !span.entered & ((on & turned_in) | (!on & at_first.value.lt(L::zero())));
-    let sign = L::splat(-1.0).select(inside, L::splat(1.0));
-    let f = |u: L| {
-        let Sample { value, rise, run, near } = path.sample(u);
-        Sample { value: value * sign, rise: rise * sign, run, near }
-    };
-    let curvature = |u: L| path.curvature(u) * sign;
-    let (mut u, mut found) = (low, low.lt(low));
-    for (left, right, convex) in [(low, bend, !inside), (bend, unbend, inside), (unbend, high, !inside)] {
-        // A ray that starts on the surface leaves it, by the choice of the sign, and hits nothing while g is convex.
-        let leaves = on & convex & left.le(low);
-        let live = span.live & !found & left.lt(right) & !leaves;
-        if live.any() {
+    let mut inside = !span.entered & at_first.value.lt(L::zero());
+    if on.any() {
+        // What runs no farther off than `on_level` before it comes back, by the parabola, is off on the side of the bend.
+        let slope = at_first.rise / at_first.run;
+        let bent = path.curvature(low);
+        let shallow = (slope * slope).le((bent + bent).abs() * on_level);
+        // A kink on the axis bends so, too.
+        let bends = bend.le(low) & unbend.gt(low);
+        let turned_in = (shallow & bends) | (!shallow & slope.lt(L::zero()));
+        inside = (on & turned_in) | (!on & inside);
+    }
+    let nowhere = low.lt(low);
+    let place = |u: L| ((path.middle + u) - b) * seen.major;
+    let (mut u, mut found, mut passed) = (low, nowhere, nowhere);
+    for (mut left, right, bends) in [(low, bend, false), (bend, unbend, true), (unbend, high, false)] {
+        let mut open = span.live & !found & left.lt(right);
+        for _ in 0..if LATER { 2 } else { 1 } {
+            let sign = L::splat(-1.0).select(inside, L::splat(1.0));
+            let f = |u: L| {
+                let Sample { value, rise, run, near } = path.sample(u);
+                Sample { value: value * sign, rise: rise * sign, run, near }
+            };
+            let convex = if bends { inside } else { !inside };
+            // A ray that starts on the surface leaves it, by the choice of the sign, and hits nothing while f is convex.
+            let mut leaves = on & convex & left.le(low);
+            if LATER {
+                leaves = leaves | (passed & convex & f(left).value.le(L::zero()));
+            }
+            let live = open & !leaves;
+            if !live.any() {
+                break;
+            }
+            let curvature = |u: L| path.curvature(u) * sign;
             let (root, hit) = first_root(f, curvature, &Stretch { left, right, convex }, live);
-            u = root.select(hit, u);
-            found = found | hit;
+            let counts = if LATER { hit & place(root).gt(t_min) } else { hit };
+            u = root.select(counts, u);
+            found = found | counts;
+            if LATER {
+                // On the other side of the surface, unless it is the root that the ray starts on.
+                let past = hit & !counts & !(on & place(root).le(L::zero()));
+                inside = (inside & !past) | (past & !inside);
+                passed = passed | past;
+                left = root.select(past, left);
+                // A concave stretch has no other root.
+                open = past & convex;
+            }
         }
     }
-    let t = ((path.middle + u) - b) * seen.major;
-    let inside = found & t.gt(t_min) & t.lt(t_max);
-    inside.any().then_some((t, inside))
+    found.any().then_some((place(u), found))
 }
 
 /// The part of a ray that may meet the torus, by s.
@@ -391,16 +442,18 @@ impl<L: Lanes> Path<L> {
         // Zero where the closest approach is within the span; rounding would give it either sign.
         let outward = p.x.mul_add(d.x, p.y * d.y);
         let slope = outward.max(zero).select(middle.le(low), outward.min(zero).select(middle.ge(high), zero));
-        // ρ³ = j² at the inflections.
+        // ρ³ = j² at the inflections. Of a ray across the axis ρ₀ and j are nothing but rounding, and must agree: what has
+        // a bend by the one and none by the other is no convex function, and Newton's steps overshoot.
         let j = p.y.neg_mul_add(d.x, p.x * d.y);
-        let gap = powf(j.abs(), L::splat(4.0 / 3.0)) - rho2;
+        let j2 = (rho2 * across2).select(slope.eq(zero), j * j);
+        let gap = powf(j2, L::splat(2.0 / 3.0)) - rho2;
         let reach = gap / (slope.abs() + slope.mul_add(slope, across2 * gap).sqrt());
         // Where there are none, and where the ray meets the axis, which makes a kink, next to nothing is left out.
         let reach = reach.max(L::splat(1e-12));
         let ends = [low - middle, high - middle];
         let inflections = [ends[0].max(-reach), ends[1].min(reach)];
         let kappa2 = kappa * kappa;
-        Self { middle, ends, inflections, rho2, slope, across2, j2: j * j, z: p.z, dz: d.z, kappa2, near }
+        Self { middle, ends, inflections, rho2, slope, across2, j2, z: p.z, dz: d.z, kappa2, near }
     }
 
     /// ρ; not zero, as it is divided by. So close to the axis there is no surface but a horn torus's centre.

@@ -7,8 +7,9 @@
 //!   §3: the corners are sheared along the ray's largest component, each by itself and so alike for all triangles that
 //!   share it, and the sign of every edge function x y' − y x' is exact, since both products round the same way; so no
 //!   ray slips between triangles that share an edge or a corner. Two deviations: an edge function of 0 is not computed
-//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, kept within the triangle's
-//!   box, without which there is no hit ([`Flat`]).
+//!   again in `f64`, but counts as inside on both sides; and t = a·N / d·N, or where that says little, which is for thin
+//!   triangles and those seen nearly edge-on, where the line runs over the triangle ([`Flat`]). What cannot be placed on
+//!   the triangle is no hit.
 //! - [`moller_trumbore`] (*Fast, Minimum Storage Ray/Triangle Intersection*, 1997) with its determinants expanded along
 //!   the direction instead of the edges: with T = o − a, e1 = b − a, e2 = c − a and N = e1 × e2, det = d·N,
 //!   u = d·(T × e2) / det, v = d·(e1 × T) / det, t = −T·N / det. Rounding may open a crack of some ε |T| between two
@@ -19,9 +20,10 @@
 //!   Alike on both sides of an edge, as every product rounds alike. But b × c cancels: the plane is off by ε |b|² over the
 //!   edge's length, so that from 10,000 sizes away it hits what it likes.
 //!
-//! The plane is missed by at most 8 ε (|o − a| + longest edge) / sin of the smallest angle, by all.
+//! The plane is missed by at most 8 ε (|o − a| + longest edge) / sin of the smallest angle, by all. A hit by the default is
+//! at most 32 ε D off the triangle itself, however it lies, with D the largest coordinate of a corner from the origin.
 
-use super::face::{self, between};
+use super::face;
 use super::methods::TriangleMethod;
 use super::numbers::numbers;
 use super::{Bounded, Cull, Footing, LaneHits, Mapping, Number, Primitives, Sides, Surface, Test, columns, flat};
@@ -406,7 +408,7 @@ pub fn watertight<L: Lanes>(seen: &SeenTriangle<L>, aim: &Aim<L>, t_min: L, t_ma
     }
     let [a, b, c] = seen.corners;
     let flat = Flat::new(seen.n, seen.height, a.min(b).min(c), a.max(b).max(c));
-    let (t, inside) = flat.distance(aim.direction, inside);
+    let (t, inside) = flat.distance(aim.direction, inside, || seen.corners);
     let inside = inside & t.gt(t_min) & t.lt(t_max);
     inside.any().then_some((t, inside))
 }
@@ -435,9 +437,10 @@ pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> L::M
 
 /// A triangle's plane and box as seen from the rays' origin, for the second half of [`watertight`].
 ///
-/// The plane alone does not tell how far a hit is: edge-on, or where a triangle is smaller than the rounding of its
-/// distance, all edge functions vanish however far a line passes by, and t is off by any number of ε. The box is wider by
-/// 32 ε of its farthest corner's distance along any axis, as a line that touches an edge may pass it by 20 ε.
+/// The plane alone does not tell how far a hit is: edge-on, or where a triangle is thin or smaller than the rounding of its
+/// distance, t is off by any number of ε, and where all edge functions vanish a line may pass however far by. So where the
+/// plane's t is unsure it is taken from the edges ([`place`]). And a hit lies in the triangle's box, wider by 32 ε of its
+/// farthest corner's distance along any axis, as a line that touches an edge may pass it by 20 ε.
 #[derive(Clone, Copy, Debug)]
 pub struct Flat<L> {
     /// N.
@@ -445,6 +448,8 @@ pub struct Flat<L> {
     height: L,
     low: Vec3<L>,
     high: Vec3<L>,
+    /// Up to which |d·N| t is unsure.
+    steep: L,
 }
 
 impl<L: Lanes> Flat<L> {
@@ -454,7 +459,11 @@ impl<L: Lanes> Flat<L> {
         let Vec3 { x, y, z } = high.max(-low);
         let pad = x.max(y).max(z) * L::splat(face::PAD);
         let pad = Vec3::new(pad, pad, pad);
-        Self { n, height, low: low - pad, high: high + pad }
+        let size = high - low;
+        let size = size.x.max(size.y).max(size.z);
+        // N is off by some 3 ε of the edges' product.
+        let steep = size * size * L::splat(STEEP);
+        Self { n, height, low: low - pad, high: high + pad, steep }
     }
 
     /// A triangle by its corners.
@@ -465,23 +474,36 @@ impl<L: Lanes> Flat<L> {
         Self::new(n, from(a).dot(n), from(a.min(b).min(c)), from(a.max(b).max(c)))
     }
 
-    /// The second half of [`watertight`]: how far away, for lines that pass through; where they meet the box, and within it.
+    /// The second half of [`watertight`]: how far away, for lines that pass through; and where they hit. `corners` are
+    /// seen from the origin, and only asked for where the plane does not suffice.
     #[inline(always)]
-    pub fn distance(&self, direction: Vec3<L>, inside: L::Mask) -> (L, L::Mask) {
-        let Self { n, height, low, high } = *self;
-        let along = n.dot(direction);
-        let t = height / along;
+    pub fn distance(
+        &self,
+        direction: Vec3<L>,
+        inside: L::Mask,
+        corners: impl FnOnce() -> [Vec3<L>; 3],
+    ) -> (L, L::Mask) {
+        let along = self.n.dot(direction);
+        let t = self.height / along;
         let inside = inside & !along.eq(L::zero());
-        let Vec3 { x, y, z } = direction * t;
-        let in_box = x.ge(low.x) & x.le(high.x) & y.ge(low.y) & y.le(high.y) & z.ge(low.z) & z.le(high.z);
-        let beside = inside & !in_box;
-        if !beside.any() {
+        let unsure = inside & (along.abs().le(self.steep) | !self.holds(direction * t));
+        if !unsure.any() {
             return (t, inside);
         }
-        let (nearest, met) = within(low, high, direction, t);
-        (nearest.select(beside, t), inside & (in_box | met))
+        let (placed, met) = place(&corners(), direction, t);
+        (placed.select(unsure, t), inside & (!unsure | (met & self.holds(direction * placed))))
+    }
+
+    /// Where a point is in the box.
+    #[inline(always)]
+    fn holds(&self, Vec3 { x, y, z }: Vec3<L>) -> L::Mask {
+        let Self { low, high, .. } = self;
+        x.ge(low.x) & x.le(high.x) & y.ge(low.y) & y.le(high.y) & z.ge(low.z) & z.le(high.z)
     }
 }
+
+/// From which |d·N|, in squares of the triangle's greatest extent along an axis, the plane's t will do.
+const STEEP: f32 = 1.0 / 32.0;
 
 impl Flat<f32x8> {
     /// Triangle `lane` in every lane.
@@ -489,15 +511,53 @@ impl Flat<f32x8> {
     pub fn one<L: Lanes>(&self, lane: usize) -> Flat<L> {
         let pick = |v: &f32x8| L::splat(v.as_array()[lane & 7]);
         let all = |v: &Vec3<f32x8>| Vec3::new(pick(&v.x), pick(&v.y), pick(&v.z));
-        Flat { n: all(&self.n), height: pick(&self.height), low: all(&self.low), high: all(&self.high) }
+        let Self { n, height, low, high, steep } = self;
+        Flat { n: all(n), height: pick(height), low: all(low), high: all(high), steep: pick(steep) }
     }
 }
 
-/// `t`, or where the ray enters or leaves the box if that is nearer, and where it meets the box.
+/// How far along lines that pass through a triangle they are on it, and where they are at all.
+///
+/// Along one of the two axes across the line, the one over which the sheared triangle spans more, its edges pass the line
+/// at two places. Along the other axis these lie on either side of the line, and the hit is where the segment between them
+/// does neither. Where they lie on one, by rounding, it is the nearer place; where both coincide, any point between
+/// them will do, and `t` chooses. Each is a step between two points of the triangle, so that the result is never off it by
+/// more than the corners are by shearing. That is for lines that the edge functions let pass; where these vanish, a line
+/// that no edge passes misses.
 #[inline(never)]
-fn within<L: Lanes>(low: Vec3<L>, high: Vec3<L>, direction: Vec3<L>, t: L) -> (L, L::Mask) {
-    let (enter, exit) = between(low, high, &face::Aim::new(direction));
-    (t.max(enter).min(exit), enter.le(exit))
+fn place<L: Lanes>(corners: &[Vec3<L>; 3], direction: Vec3<L>, t: L) -> (L, L::Mask) {
+    let Aim { shear: [sx, sy], on, .. } = Aim::new(direction);
+    let major = in_order(direction, on)[2];
+    let sheared = map3(*corners, |corner| {
+        let [p, q, r] = in_order(corner, on);
+        [r.neg_mul_add(sx, p), r.neg_mul_add(sy, q), r]
+    });
+    let [a, b, c] = sheared;
+    let span = |axis: usize| a[axis].max(b[axis]).max(c[axis]) - a[axis].min(b[axis]).min(c[axis]);
+    let swap = span(1).gt(span(0));
+    let span = span(0).max(span(1));
+    let [a, b, c] = map3(sheared, |[x, y, r]| [y.select(swap, x), x.select(swap, y), r]);
+    let (zero, far) = (L::zero(), L::splat(f32::INFINITY));
+    let (mut low, mut high, mut near, mut last) = ([far, zero], [-far, zero], far, -far);
+    for ([x, y, r], [next_x, next_y, next_r]) in [(a, b), (b, c), (c, a)] {
+        let passes = ((x.le(zero) & next_x.ge(zero)) | (x.ge(zero) & next_x.le(zero))) & !x.eq(next_x);
+        let part = x / (x - next_x);
+        let (y, r) = ((next_y - y).mul_add(part, y), (next_r - r).mul_add(part, r));
+        let (lower, higher) = (passes & y.lt(low[0]), passes & y.gt(high[0]));
+        low = [y.select(lower, low[0]), r.select(lower, low[1])];
+        high = [y.select(higher, high[0]), r.select(higher, high[1])];
+        near = r.select(passes, far).min(near);
+        last = r.select(passes, -far).max(last);
+    }
+    // Smaller than rounding: all corners are at one place.
+    let small = span.eq(zero);
+    near = a[2].min(b[2]).min(c[2]).select(small, near);
+    last = a[2].max(b[2]).max(c[2]).select(small, last);
+    let apart = high[0] - low[0];
+    // Not fused, so that it is the same in a mirror.
+    let between = (low[1] * high[0] - high[1] * low[0]) / apart;
+    let r = between.select(apart.gt(zero), t * major).max(near).min(last);
+    (r / major, near.le(last))
 }
 
 /// Where a triangle is there for rays that run `along` N: from the front against it.

@@ -91,7 +91,7 @@ fn rays_of_a_file_are_judged() {
     for (name, t_max) in [("a.rays", f32::INFINITY), ("a.shadow", 2.0005)] {
         let path = folder.path().join(name);
         let ray = [0.0, 0.0, 3.0, 0.5, 0.0, 0.0, -1.0, t_max];
-        std::fs::write(&path, ray.map(f32::to_le_bytes).as_flattened()).expect("written");
+        std::fs::write(&path, ray.map(f32::to_le_bytes).as_flattened().repeat(300)).expect("written");
         let options = Options { rays: Some(path), ..options() };
         for (radius, valid) in [(1.0, true), (0.999, false)] {
             let scene = compile(&ball(radius)).expect("a sound scene");

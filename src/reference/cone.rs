@@ -186,7 +186,7 @@ impl Primitive for Cone {
     }
 
     fn edges(&self, point: DVec3) -> Edges {
-        let end = |radius: f64| if radius > 0.0 { Edge::End } else { Edge::Point };
+        let end = |radius: f64| if radius > 0.0 { Edge::Border } else { Edge::Point };
         let [narrow, wide] = self.radii.map(end);
         match self.part(point) {
             Part::Side if self.upright => around(wide, narrow),

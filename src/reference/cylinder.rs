@@ -148,7 +148,7 @@ impl Primitive for Cylinder {
     }
 
     fn edges(&self, point: DVec3) -> Edges {
-        if matches!(self.part(point), Part::Side) { around(Edge::End, Edge::End) } else { FACE }
+        if matches!(self.part(point), Part::Side) { around(Edge::Border, Edge::Border) } else { FACE }
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

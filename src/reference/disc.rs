@@ -73,7 +73,7 @@ impl Primitive for Disc {
     }
 
     fn edges(&self, _point: DVec3) -> Edges {
-        around(if self.inner > 0.0 { Edge::End } else { Edge::Point }, Edge::End)
+        around(if self.inner > 0.0 { Edge::Border } else { Edge::Point }, Edge::Border)
     }
 
     fn checker(&self, point: DVec3) -> DVec3 {

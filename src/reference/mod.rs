@@ -86,7 +86,7 @@ enum Edge {
     /// Nothing: they go on, or around.
     None,
     /// The surface, or this part of it, ends.
-    End,
+    Border,
     /// All of the other coordinate comes together in a point.
     Point,
 }
@@ -95,7 +95,7 @@ enum Edge {
 type Edges = [[Edge; 2]; 2];
 
 /// On a face.
-const FACE: Edges = [[Edge::End; 2]; 2];
+const FACE: Edges = [[Edge::Border; 2]; 2];
 
 /// Around a body, with its lower and upper end.
 fn around(lower: Edge, upper: Edge) -> Edges {

@@ -23,6 +23,9 @@ impl Rounding {
     pub const FINE: Self = Self { lift: 1.0 / (1u64 << 40) as f64, shift: DVec3::ZERO };
 }
 
+/// The least (r·l)^shininess that counts, by the scene format: 2⁻⁶⁰.
+const LEAST_GLOSS: f64 = 1.0 / (1u64 << 60) as f64;
+
 /// The state that a ray carries through the recursion.
 #[derive(Clone, Copy)]
 struct Way<'a> {
@@ -244,7 +247,9 @@ impl Tracer {
         let power = light.power.as_dvec3();
         let irradiance = if self.settings.attenuation { power / (4.0 * PI * to_light.length_squared()) } else { power };
         let shininess = f64::from(point.material.shininess);
-        let highlight = f64::from(point.material.specular) * mirrored.dot(l).max(0.0).powf(shininess);
+        let gloss = mirrored.dot(l).max(0.0).powf(shininess);
+        let gloss = if gloss < LEAST_GLOSS { 0.0 } else { gloss };
+        let highlight = f64::from(point.material.specular) * gloss;
         irradiance * (point.base * cosine + DVec3::splat(highlight))
     }
 

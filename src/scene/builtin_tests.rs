@@ -129,6 +129,26 @@ fn lattice_is_a_diamonds() {
     assert!(lowest.abs() < 1e-5, "it stands on the floor, not in it: {lowest}");
 }
 
+/// Every mesh has normals, on the side of its triangles; and the balls, one of which is of glass, are closed.
+#[test]
+fn vase_is_shaded_smoothly() {
+    let vase = scene("vase");
+    assert_eq!(vase.meshes.iter().map(|m| m.triangles.len()).collect::<Vec<_>>(), [364, 80, 80, 80]);
+    for mesh in &vase.meshes {
+        let mut edges = std::collections::HashSet::new();
+        for &[i, j, k] in &mesh.triangles {
+            let [a, b, c] = [i, j, k].map(|v| mesh.positions[v as usize]);
+            let own = (b - a).cross(c - a);
+            assert!([i, j, k].iter().all(|&v| mesh.normals[v as usize].dot(own) > 0.0));
+            edges.extend([[i, j], [j, k], [k, i]]);
+        }
+        assert_eq!(edges.len(), 3 * mesh.triangles.len(), "no edge runs twice the same way");
+        let closed = edges.iter().all(|&[i, j]| edges.contains(&[j, i]));
+        assert_eq!(closed, mesh.triangles.len() == 80);
+    }
+    assert!(vase.materials[vase.meshes[3].material].transmission > 0.9);
+}
+
 #[test]
 fn what_cannot_be_loaded_is_said_in_one_line() {
     for (name, message) in [

@@ -67,10 +67,7 @@ fn settings_sky_and_lights_are_checked() {
 
 /// Beyond them a product of them would be infinite.
 #[test]
-fn colours_and_powers_have_a_greatest() {
-    let power = |p: f32| verdict(|d| d.lights[0].power.z = p);
-    assert_eq!(power(1.1e27), format!("light[0].power: must be at most 1e27, got [1, 1, {}]", 1.1e27f32));
-    assert_eq!(power(3e38), format!("light[0].power: must be at most 1e27, got [1, 1, {}]", 3e38f32));
+fn colours_have_a_greatest() {
     assert_eq!(
         verdict(|d| d.settings.ambient.x = 1e30),
         format!("settings.ambient: must be at most 1e9, got [{}, 0, 0]", 1e30f32)

@@ -21,10 +21,6 @@ const MAX_BODY_LENGTH: f32 = MAX_MESH_LENGTH;
 /// The greatest part of a colour, and strength of a highlight: far more than the sun's in a panorama.
 pub(super) const MAX_COLOR: f32 = 1e9;
 
-/// The greatest power of a light, a few stars' in watts. On the greatest colour a hundred such lights a unit away, or as many
-/// that do not fall off, still fit an `f32`.
-const MAX_POWER: f32 = 1e27;
-
 /// The smallest field of view, in degrees: narrower, neighbouring pixels have the same direction.
 const MIN_FOV: f32 = 0.01;
 
@@ -157,7 +153,7 @@ pub(super) fn color(c: Vec3) -> Result<(), String> {
 
 /// A light's power.
 pub(super) fn power(c: Vec3) -> Result<(), String> {
-    parts(c, MAX_POWER)
+    parts(c, f32::MAX)
 }
 
 /// What has a red, a green and a blue part, each from 0 to the greatest.

@@ -65,6 +65,13 @@ impl<L: Lanes> Within<L> {
         met.any().then_some(Self { enter, exit, met })
     }
 
+    /// From where on a test has to look: what it puts before the box is met where the box is, so that `t_min` matters only
+    /// in there.
+    #[inline(always)]
+    pub fn from(&self, t_min: L) -> L {
+        t_min.min(L::zero()).select(self.enter.gt(t_min), t_min)
+    }
+
     /// A test's hits that count.
     #[inline(always)]
     pub fn keep(&self, t: L, inside: L::Mask) -> (L, L::Mask) {
@@ -90,7 +97,8 @@ pub fn hits<K: Bounded, T: Test<K>, L: Lanes>(
     let within = Within::of(K::extent(shape), packet.origin, faces, packet.t_min, packet.t_max)?;
     let seen = test.seen(shape, variant, packet.origin);
     // As far as the ray goes: the box may bring a hit before another that was found.
-    let (t, inside) = test.nearest(&seen, variant, &K::aim(packet.direction), packet.t_min, packet.t_max)?;
+    let (t, inside) =
+        test.nearest(&seen, variant, &K::aim(packet.direction), within.from(packet.t_min), packet.t_max)?;
     let (t, inside) = within.keep(t, inside);
     inside.any().then_some((t, inside))
 }

@@ -207,7 +207,7 @@ fn boxed<F: Form, K: Bounded, T: Test<K>, L: Lanes, A: Found<L>>(
         let Some(within) = Within::of(bounds, packet.origin, faces, packet.t_min, found.t_max()) else { continue };
         let seen = F::seen::<K, T, L>(test, record, *variant, packet.origin);
         // As far as the ray goes: the box may bring a hit before another that was found.
-        if let Some((t, inside)) = test.nearest(&seen, *variant, &aim, packet.t_min, packet.t_max) {
+        if let Some((t, inside)) = test.nearest(&seen, *variant, &aim, within.from(packet.t_min), packet.t_max) {
             let (t, inside) = within.keep(t, inside);
             let inside = inside & t.lt(found.t_max());
             found.hit(t, inside, *id);

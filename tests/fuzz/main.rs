@@ -41,7 +41,9 @@ fn variable(name: &str) -> Option<u64> {
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fuzz").join(name);
     let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(folder.join("textures")).unwrap();
+    for inner in ["textures", "meshes"] {
+        fs::create_dir_all(folder.join(inner)).unwrap();
+    }
     for (file, content) in files() {
         fs::write(folder.join(file), content).unwrap();
     }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::Vec3;
 use raypacket::{Aabb, BoxTree, Hit, Ray};
 
-use crate::common::Pcg;
+use crate::common::{Pcg, ROUNDOFF};
 
 /// A ball, tested in f64.
 #[derive(Clone, Copy)]
@@ -172,4 +172,45 @@ fn at_equal_distance_the_lowest_place_wins() {
         let hit = tree.intersect(&ray, |i, ray| (i > 0).then_some(-ray.origin.z / ray.direction.z));
         assert_eq!(hit, Some(Hit { t: 200.0, primitive: 1 }), "{count}");
     }
+}
+
+/// What lies within 56 ε R of a box along every axis is not lost, by the documentation.
+#[test]
+fn what_a_ray_passes_close_by_is_asked_about() {
+    let (mut rng, mut tested) = (Pcg::new(12), 0);
+    for _ in 0..20_000 {
+        let center = rng.cube() * rng.pick(&[0.0, 1.0, 100.0]);
+        let mut boxes: Vec<Aabb> = (0..3)
+            .map(|_| {
+                let (p, q) = (center + rng.cube(), center + rng.cube());
+                Aabb { min: p.min(q), max: p.max(q) }
+            })
+            .collect();
+        let axis = rng.below(3);
+        boxes[0].max[axis] = boxes[0].min[axis];
+        let tree = BoxTree::build(&boxes);
+        let origin = center + rng.cube() * rng.pick(&[3.0, 1e3]);
+        let around = tree.bounds();
+        let away = (around.max - origin).abs().max((origin - around.min).abs()).max_element();
+        let near = 56.0 * ROUNDOFF * f64::from(away + origin.abs().max_element());
+        let Aabb { min, max } = boxes[0];
+        let mut to = min.as_dvec3();
+        for axis in 0..3 {
+            match rng.below(3) {
+                0 => to[axis] -= 0.98 * near,
+                1 => to[axis] = f64::from(max[axis]) + 0.98 * near,
+                _ => (),
+            }
+        }
+        let direction = (to - origin.as_dvec3()).normalize().as_vec3();
+        let t = (to - origin.as_dvec3()).length() as f32;
+        let at = origin.as_dvec3() + direction.as_dvec3() * f64::from(t);
+        if at.cmplt(min.as_dvec3() - near).any() || at.cmpgt(max.as_dvec3() + near).any() {
+            continue;
+        }
+        tested += 1;
+        let hit = tree.intersect(&Ray::new(origin, direction), |i, _| (i == 0).then_some(t));
+        assert_eq!(hit, Some(Hit { t, primitive: 0 }), "{boxes:?} {origin} {direction}");
+    }
+    assert!(tested > 10_000, "{tested}");
 }

@@ -1,6 +1,7 @@
 //! The tree gives what testing every primitive gives: the same distances, ids and shadows to the bit, at every width,
 //! on scenes and rays that are hard on boxes.
 
+mod beyond;
 #[path = "../common/mod.rs"]
 mod common;
 mod field;

@@ -240,3 +240,26 @@ fn spawned_rays_do_not_meet_their_own_start() {
     }
     assert!(hits > 2000, "{hits}");
 }
+
+/// From one ulp before a hit on it is found again, to the bit; from the hit on the next one comes.
+#[test]
+fn t_min_next_to_a_hit_changes_nothing() {
+    let mut later = 0;
+    for (center, radius, iterations) in
+        [(V::ZERO, 1.0, 2), (vec3(1.0, -2.0, 3.3), 0.7, 4), (vec3(0.1, 0.2, 0.3), 1.3, 0)]
+    {
+        let (fractals, _) = one(center, radius, iterations);
+        for ray in rays(center, radius, iterations, 2000, 12) {
+            let from = |t_min: f32| all_widths(&fractals, &[ray], t_min)[0];
+            let mut t = from(0.0);
+            for changes in 0.. {
+                let Some(hit) = t.filter(|t| t.is_normal()) else { break };
+                assert_eq!(from(hit.next_down()), t, "{ray:?}");
+                t = from(hit);
+                assert!(t.is_none_or(|t| t > hit) && changes < 250, "{ray:?}: {t:?} after {hit}");
+                later += usize::from(t.is_some());
+            }
+        }
+    }
+    assert!(later > 3000, "{later}");
+}

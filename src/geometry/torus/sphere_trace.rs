@@ -21,7 +21,8 @@ const NEAR: f32 = 4.0 * ROUNDOFF;
 /// 1 − cos θ of the distance, so that some 15 / cos θ are needed: rays that graze the torus run out of steps and are lost,
 /// and those that touch it cost the most.
 ///
-/// t is short by up to 4 ε (R + r) / cos θ beside the rounding; directions are of unit length; NaN hits nothing.
+/// The march starts at `t_min`, so that this is on a surface as an origin is. t is short by up to 4 ε (R + r) / cos θ beside
+/// the rounding; directions are of unit length; NaN hits nothing.
 #[inline(never)]
 pub fn sphere_trace<L: Lanes>(seen: &SeenTorus<L>, direction: Vec3<L>, t_min: L, t_max: L) -> LaneHits<L> {
     let per_major = L::splat(1.0) / seen.major;

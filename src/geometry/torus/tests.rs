@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use wide::{f32x4, f32x8};
 
 mod methods;
+mod start;
 
 const U: f64 = ROUNDOFF as f64;
 

@@ -92,6 +92,8 @@ impl<'a> Asked<'a> {
         }
         let size = tracer.extent(id).max(tracer.extent(primitive));
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        // Where some rays miss what others hit, one between them is a tangent, which ends in the middle of their chords.
+        let (mut missed, mut tangent) = (false, f64::NEG_INFINITY);
         self.rounds(reach, size).any(|round| {
             for q in round {
                 let nearest = tracer.intersect(q.origin, q.direction, f64::INFINITY).map_or(f64::INFINITY, |hit| hit.t);
@@ -104,11 +106,15 @@ impl<'a> Asked<'a> {
                 }
                 // Where two surfaces are closer together than t can tell, either may be the nearer.
                 let own = tracer.distance(primitive, q.origin, q.direction);
+                missed |= own.is_none();
                 if let Some(own) = own.filter(|own| *own <= nearest * (1.0 + ku)) {
                     (low, high) = (low.min(own), high.max(own));
+                    let inside = q.origin + own * (1.0 + 4.0 * f64::EPSILON) * q.direction;
+                    let chord = tracer.distance(primitive, inside, q.direction);
+                    tangent = tangent.max(own + chord.map_or(0.0, |chord| 0.5 * chord));
                 }
             }
-            within(low, high)
+            within(low, if missed { high.max(tangent) } else { high })
         })
     }
 

@@ -323,3 +323,26 @@ fn display_curve() {
     assert!(same(f64::INFINITY, 4e38) && same(f64::INFINITY, 1e33) && same(1e30, 1.000_001e30) && same(1.0, 1e27));
     assert!(!same(f64::INFINITY, 1e27) && !same(f64::INFINITY, 1.0) && !same(f64::NAN, 4e38));
 }
+
+/// A ray down the hole of a horn torus is thrown across its axis, onto the wall opposite: this was lost where the ray meets the
+/// axis itself, as on the diagonals of the picture. And light that no `f32` holds.
+#[test]
+fn along_the_axis_of_a_horn_and_beyond_f32() {
+    let horn = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40 }
+        settings.ambient = [0.3, 0.3, 0.3]
+        sky.color = [0.1, 0.1, 0.5]
+        light = [{ position = [3, 5, 4], power = [900, 900, 900] }]
+        materials.m = { color = [0.8, 0.6, 0.4], reflectance = 0.2 }
+        torus = [{ center = [0, 0, 0], axis = [0, 0, 1], major_radius = 1, minor_radius = 1, material = \"m\" }]";
+    let bright = "camera = { eye = [0, 1, 4], look_at = [0, 0.5, 0], fov = 40 }
+        settings = { max_depth = 6, attenuation = false }
+        sky.color = [0.1, 0.1, 0.1]
+        light = [{ position = [1, 3, 2], power = [3e38, 3e38, 3e38] }]
+        materials.m = { color = [0, 0.5, 2], specular = 0.5, reflectance = 0.5 }
+        sphere = [{ center = [0, 0.5, 0], radius = 0.5, material = \"m\" }]
+        plane = [{ normal = [0, 1, 0], distance = 0, material = \"m\" }]";
+    for (name, text) in [("horn.toml", horn), ("bright.toml", bright)] {
+        let report = verify(&scene::parse(text, name.as_ref()).expect("a sound scene"), &Kernel::ALL, 128, 64);
+        assert!(report.pass, "{report}");
+    }
+}

@@ -57,7 +57,7 @@ fn a_texture_ends_where_the_mapping_does() {
         assert!(seen(ball, 1.0, Wrap::Ends, u, 0.0).abs_diff_eq((DVec3::Z + grey) / 2.0, 1e-15), "{u}");
     }
     assert!(seen(ball, 1.0, Wrap::Ends, 0.75, 0.875).abs_diff_eq((upper + DVec3::Y) / 2.0, 1e-15));
-    assert_eq!(seen(around(Edge::End, Edge::End), 1.0, Wrap::Ends, 0.75, 1.0), DVec3::Y);
+    assert_eq!(seen(around(Edge::Border, Edge::Border), 1.0, Wrap::Ends, 0.75, 1.0), DVec3::Y);
 }
 
 #[test]

@@ -26,7 +26,7 @@ pub struct Quad {
 
 impl Kind for Quad {
     const NAME: KindName =
-        KindName { one: "quad", many: "quads", method: "method `moller_trumbore`, as nothing shares their edges" };
+        KindName { one: "quad", many: "quads", method: "method `planar`: a hit is on the quad, however flat its ray" };
     type Storage = Quads;
 
     fn check(&self, at: &At) -> Result<(), Invalid> {

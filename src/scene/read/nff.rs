@@ -63,7 +63,7 @@ fn parse(
     let mut next = REPORT;
     progress(0);
     loop {
-        reader.make_room(1).map_err(|_| ReadError::memory(path))?;
+        reader.make_room().map_err(|_| ReadError::memory(path))?;
         if !reader.entity()? {
             break;
         }
@@ -113,20 +113,14 @@ impl<'a, R: BufRead> Reader<'a, R> {
         }
     }
 
-    /// For an entity of so many corners.
-    fn make_room(&mut self, corners: usize) -> Result<(), TryReserveError> {
+    /// For an entity; corners see to their own.
+    fn make_room(&mut self) -> Result<(), TryReserveError> {
         self.lights.try_reserve(1)?;
         self.spheres.try_reserve(1)?;
         self.cylinders.try_reserve(1)?;
         self.cones.try_reserve(1)?;
         self.materials.all.try_reserve(1)?;
-        self.materials.known.try_reserve(1)?;
-        self.meshes.iter_mut().filter(|_| corners > 1).try_for_each(|mesh| {
-            mesh.positions.try_reserve(corners)?;
-            mesh.normals.try_reserve(corners)?;
-            mesh.materials.try_reserve(corners)?;
-            mesh.triangles.try_reserve(corners)
-        })
+        self.materials.known.try_reserve(1)
     }
 
     /// Reads the next entity, unless the file ends.
@@ -267,7 +261,6 @@ impl<'a, R: BufRead> Reader<'a, R> {
                 _ => Err(format!("must have 3 to {} corners, got {count}", polygon::MAX_CORNERS)),
             },
         )?;
-        self.make_room(count).map_err(|_| self.tokens.memory())?;
         let mesh = &mut self.meshes[mesh];
         let first = mesh.positions.len();
         let each = if smooth { 6 } else { 3 };
@@ -278,6 +271,9 @@ impl<'a, R: BufRead> Reader<'a, R> {
                 *number = self.tokens.number(key, "a number", missing)?;
             }
             let [x, y, z, nx, ny, nz] = numbers;
+            // As they come: the number may promise more than the file holds.
+            let room = mesh.positions.try_reserve(1).and_then(|()| mesh.normals.try_reserve(usize::from(smooth)));
+            room.map_err(|_| self.tokens.memory())?;
             mesh.positions.push(Vec3::new(x, y, z));
             self.tokens.sound(key, rules::vertex(Vec3::new(x, y, z)))?;
             if smooth {
@@ -288,6 +284,9 @@ impl<'a, R: BufRead> Reader<'a, R> {
         }
         let triangles = polygon::triangulate(&mesh.positions[first..]);
         let triangles = triangles.ok_or_else(|| self.tokens.fault(line, key, "the corners span no area"))?;
+        let room =
+            mesh.materials.try_reserve(triangles.len()).and_then(|()| mesh.triangles.try_reserve(triangles.len()));
+        room.map_err(|_| self.tokens.memory())?;
         mesh.materials.resize(mesh.materials.len() + triangles.len(), self.materials.worn() as u32);
         // A corner takes six bytes of the file at least, so that they never are too many for 32 bits.
         for triangle in triangles {

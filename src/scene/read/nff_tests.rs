@@ -190,7 +190,7 @@ fn patches_turn_to_where_their_normals_point() {
 }
 
 /// Files that have a view in their first line, with what is wrong with them.
-const FAULTS: [(&str, &str); 52] = [
+const FAULTS: [(&str, &str); 51] = [
     ("q 1 2", "2: q: unknown entity, expected v, b, l, f, s, c, p or pp"),
     ("b 0 0 0\nfrom 1 2 3", "3: from: unknown entity, expected v, b, l, f, s, c, p or pp"),
     ("s 0 0 0 1\ns 0 0 0 1 2\n", "3: 2: unknown entity, expected v, b, l, f, s, c, p or pp"),
@@ -219,7 +219,6 @@ const FAULTS: [(&str, &str); 52] = [
     ("l 1 2", "2: l: expected 3 numbers, got 2"),
     ("l 1 2 3 1", "2: l: expected 3 numbers, got 1"),
     ("l 1 2 3 1 -1 1", "2: l: must be finite and 0 or more, got [1, -1, 1]"),
-    ("l 1 2 3 1 2e27 1", "2: l: must be at most 1e27, got [1, 2000000000000000000000000000, 1]"),
     ("b 0 2e9 0", "2: b: must be at most 1e9, got [0, 2000000000, 0]"),
     ("f 2e5 1 1 2e5 0 1 0 0", "2: f: r g b times Kd must be at most 1e9, got [40000000000, 200000, 200000]"),
     ("l inf 2 3", "2: l: must be finite and within ±1e18, got [inf, 2, 3]"),

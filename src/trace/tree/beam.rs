@@ -21,6 +21,11 @@
 //!   size and place, which is more than the second.
 //! - All others keep their hits within boxes of their own, wider by 32 ε D ([`crate::geometry::triangle::Flat`],
 //!   [`crate::trace::packet`]).
+//!
+//! So a hit at t lies deeper in the wider box than rounding moves its faces, and the ray enters that strictly before t and
+//! leaves it strictly after. Where a box is met, `<` would do for `<=`, here and in [`super::line`], [`super::packet`] and
+//! [`super::stack`], where the end is the nearest hit so far; the margin is what keeps equal distances, and the tests
+//! take it away. (All that is left is a scene without extent at the world's origin, with rays from there: D + |o| is 0.)
 
 use crate::bvh::Bvh;
 use crate::math::{LaneMask, Lanes};

@@ -31,6 +31,8 @@ mod entries;
 mod group;
 mod leaf;
 mod line;
+#[cfg(test)]
+mod margin_tests;
 mod packet;
 mod single;
 mod stack;

@@ -19,7 +19,7 @@ const LINES: usize = 2;
 const FEW: u32 = 5;
 
 /// A ray in every lane: [`super::line::Line`] turned about.
-struct Lines16 {
+pub struct Lines16 {
     inverse: [f32x16; 3],
     near: [f32x16; 3],
     far: [f32x16; 3],
@@ -30,8 +30,9 @@ struct Lines16 {
 }
 
 impl Lines16 {
+    /// Rays `at` to `at + 16`, of which the `active` ones count.
     #[inline(always)]
-    fn new(lines: &Lines, at: usize, active: u32) -> Self {
+    pub fn new(lines: &Lines, at: usize, active: u32) -> Self {
         let load = |columns: &[[f32; BATCH]; 3]| map3([0, 1, 2], |axis| f32x16::load(&columns[axis][at..]));
         let inverse = load(&lines.inverse);
         let behind = map3(inverse, |inverse| LaneMask::bits(Lanes::lt(inverse, f32x16::ZERO)) & active);
@@ -46,7 +47,7 @@ impl Lines16 {
 
     /// The rays' entries into a child of a node, not below zero, and which meet it no later than at `end`.
     #[inline(always)]
-    fn meets<const MIXED: bool>(&self, node: &Node, child: usize, end: f32x16) -> (f32x16, u32) {
+    pub fn meets<const MIXED: bool>(&self, node: &Node, child: usize, end: f32x16) -> (f32x16, u32) {
         let mut enter = f32x16::ZERO;
         let mut exit = end;
         for axis in 0..3 {

@@ -38,12 +38,10 @@ impl Leaf for Triangles {
         }
         walk.state.make_shears(walk.rays, groups);
         let covers = |walk: &Walk, lane: usize, at: usize| {
-            let origin = walk.rays.origins::<L>(at);
             let Some(major) = met.major else {
-                let seen = map3(block.primitive(lane).corners(), |corner| Vec3::splat(corner.into()) - origin);
-                return covers(&seen, &Aim::new(Vec3::load(&walk.rays.direction, at)));
+                return covers(&seen::<L>(walk, block, lane, at), &Aim::new(Vec3::load(&walk.rays.direction, at)));
             };
-            let (corners, origin) = (&block.shape.corners, origin.ordered(major));
+            let (corners, origin) = (&block.shape.corners, walk.rays.origins::<L>(at).ordered(major));
             let axis = |k: usize, i: usize| L::splat(corners[k][(major + 1 + i) % 3][lane]) - origin[i];
             covers_ordered(&map3([0, 1, 2], |k| map3([0, 1, 2], |i| axis(k, i))), walk.state.shear(at))
         };
@@ -89,7 +87,7 @@ impl Leaf for Triangles {
         let [a, b, c] = map3(corners, |c| c - packet.origin);
         let n = normal(corners);
         let flat = Flat::new(n, a.dot(n), a.min(b).min(c), a.max(b).max(c));
-        let (t, inside) = flat.distance(packet.direction, inside);
+        let (t, inside) = flat.distance(packet.direction, inside, || [a, b, c]);
         let inside = inside & Lanes::gt(t, packet.t_min);
         let inside = if sides == Sides::Both { inside } else { inside & shown(sides, n.dot(packet.direction)) };
         take_eight::<Q>(walk, ray.i, t, inside, &block.id)
@@ -165,10 +163,17 @@ fn each_pair<Q: Query, L: Lanes>(
         let (lane, group) = ((pair / 16) & (BLOCK - 1), pair % 16);
         for at in (RAYS * group..RAYS * (group + 1)).step_by(L::WIDTH) {
             let flat = flat(walk, lane, at);
-            taken |= take::<Q, L>(walk, at, &flat, sides, L::zero().le(L::zero()), block.id[lane]);
+            taken |= take::<Q, L>(walk, (block, lane), at, &flat, sides, L::zero().le(L::zero()));
         }
     }
     taken
+}
+
+/// A triangle's corners, from the origins of packet `at`.
+#[inline(always)]
+fn seen<L: Lanes>(walk: &Walk, block: &Block<Triangles>, lane: usize, at: usize) -> [Vec3<L>; 3] {
+    let origin = walk.rays.origins::<L>(at);
+    map3(block.primitive(lane).corners(), |corner| Vec3::splat(corner.into()) - origin)
 }
 
 /// Takes the hits of what is covered.
@@ -183,7 +188,7 @@ fn take_covered<Q: Query, L: Lanes>(
     for i in 0..walk.state.covered.take() {
         let (at, lane, rays) = walk.state.covered.get::<L>(i);
         let flat = flat(walk, lane, at);
-        taken |= take::<Q, L>(walk, at, &flat, sides, rays, block.id[lane]);
+        taken |= take::<Q, L>(walk, (block, lane), at, &flat, sides, rays);
     }
     taken
 }
@@ -192,17 +197,17 @@ fn take_covered<Q: Query, L: Lanes>(
 #[inline(always)]
 fn take<Q: Query, L: Lanes>(
     walk: &mut Walk,
+    (block, lane): (&Block<Triangles>, usize),
     at: usize,
     flat: &Flat<L>,
     sides: Sides,
     inside: L::Mask,
-    id: u32,
 ) -> bool {
     let direction = Vec3::load(&walk.rays.direction, at);
-    let (t, mut inside) = flat.distance(direction, inside);
+    let (t, mut inside) = flat.distance(direction, inside, || seen(walk, block, lane, at));
     if sides != Sides::Both {
         inside = inside & shown(sides, flat.n.dot(direction));
     }
     let inside = inside & t.gt(L::load(&walk.rays.t_min[at..]));
-    inside.any() && walk.state.take::<Q, L>(at, t, inside, id)
+    inside.any() && walk.state.take::<Q, L>(at, t, inside, block.id[lane])
 }

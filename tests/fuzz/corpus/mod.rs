@@ -47,6 +47,8 @@ pub fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("textures/dusk.hdr", radiance::RUNS.into()),
         ("sky.hdr", radiance::RUNS.into()),
         ("skies.toml", b"sky.image = 'sky.hdr'\nsphere = [{ center = [0, 1, 0], radius = 1 }]\n".into()),
+        ("meshes/vase.obj", obj::SEEDS[0].into()),
+        ("meshes/ball.obj", obj::SEEDS[0].into()),
         ("mesh.obj", obj::SEEDS[0].into()),
         ("clothed.obj", obj::SEEDS[1].into()),
         ("scene.mtl", obj::MATERIALS.into()),
