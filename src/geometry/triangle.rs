@@ -439,7 +439,7 @@ pub fn covers_ordered<L: Lanes>(corners: &[[L; 3]; 3], [sx, sy]: [L; 2]) -> L::M
 ///
 /// The plane alone does not tell how far a hit is: edge-on, or where a triangle is thin or smaller than the rounding of its
 /// distance, t is off by any number of ε, and where all edge functions vanish a line may pass however far by. So where the
-/// plane's t is unsure it is taken from the edges ([`place`]). And a hit lies in the triangle's box, wider by 32 ε of its
+/// plane's t is unsure it is taken from the edges. And a hit lies in the triangle's box, wider by 32 ε of its
 /// farthest corner's distance along any axis, as a line that touches an edge may pass it by 20 ε.
 #[derive(Clone, Copy, Debug)]
 pub struct Flat<L> {
