@@ -99,3 +99,19 @@ fn rays_of_a_file_are_judged() {
         }
     }
 }
+
+/// A ray that passes a sphere by 3 · 10⁻⁹ is taken for a tangent: that is within the bound, at the tangent's distance only.
+#[test]
+fn a_tangent_is_explained() {
+    use crate::measure::verify::sample::{Answer, agrees};
+    let text = "materials.a.color = [1, 1, 1]\ncamera = { eye = [0, 1, 5], look_at = [0, 1, 0] }\n\
+                sphere = [{ center = [0, 1, 0], radius = 1, material = \"a\" }]";
+    let tracer = Tracer::new(&parse(text, "s.toml".as_ref()).expect("a sound scene"));
+    let mut rays = RayBatch::default();
+    let direction = glam::Vec3::new(-0.197_989_91, 0.028_284_26, -0.979_795_93);
+    rays.push(glam::Vec3::new(0.0, 1.0, 5.0), direction, 0.0, f32::INFINITY);
+    let judged = |t: f32, id: u32| agrees(&tracer, std::slice::from_ref(&rays), |_, _| Answer::Nearest(t, id));
+    assert!(tracer.intersect(rays.first_origin().as_dvec3(), direction.as_dvec3().normalize(), 99.0).is_none());
+    assert!(judged(4.898_979, 0) && !judged(4.9, 0) && !judged(4.8, 0) && !judged(f32::NAN, 0));
+    assert!(judged(f32::INFINITY, crate::math::NONE));
+}

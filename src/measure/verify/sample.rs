@@ -91,30 +91,41 @@ impl<'a> Asked<'a> {
             return true;
         }
         let size = tracer.extent(id).max(tracer.extent(primitive));
+        let nearest = |[origin, direction]: [DVec3; 2]| {
+            tracer.intersect(origin, direction, f64::INFINITY).map_or(f64::INFINITY, |hit| hit.t)
+        };
+        if primitive == NONE {
+            // What lies at the interval's end may lie beyond it.
+            let mut questions = self.rounds(reach, size).flatten();
+            return questions.any(|q| nearest([q.origin, q.direction]) >= length * (1.0 - ku));
+        }
+        let own = |ray: [DVec3; 2]| {
+            // Where two surfaces are closer together than t can tell, either may be the nearer.
+            let own = tracer.distance(primitive, ray[0], ray[1]);
+            own.filter(|own| *own <= nearest(ray) * (1.0 + ku))
+        };
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        // Where some rays miss what others hit, one between them is a tangent, which ends in the middle of their chords.
-        let (mut missed, mut tangent) = (false, f64::NEG_INFINITY);
+        let [mut farthest, mut miss] = [None; 2];
         self.rounds(reach, size).any(|round| {
             for q in round {
-                let nearest = tracer.intersect(q.origin, q.direction, f64::INFINITY).map_or(f64::INFINITY, |hit| hit.t);
-                if primitive == NONE {
-                    // What lies at the interval's end may lie beyond it.
-                    if nearest >= length * (1.0 - ku) {
-                        return true;
+                let ray = [q.origin, q.direction];
+                match own(ray) {
+                    None => miss = Some(ray),
+                    Some(t) => {
+                        if t > high {
+                            farthest = Some(ray);
+                        }
+                        (low, high) = (low.min(t), high.max(t));
                     }
-                    continue;
-                }
-                // Where two surfaces are closer together than t can tell, either may be the nearer.
-                let own = tracer.distance(primitive, q.origin, q.direction);
-                missed |= own.is_none();
-                if let Some(own) = own.filter(|own| *own <= nearest * (1.0 + ku)) {
-                    (low, high) = (low.min(own), high.max(own));
-                    let inside = q.origin + own * (1.0 + 4.0 * f64::EPSILON) * q.direction;
-                    let chord = tracer.distance(primitive, inside, q.direction);
-                    tangent = tangent.max(own + chord.map_or(0.0, |chord| 0.5 * chord));
                 }
             }
-            within(low, if missed { high.max(tangent) } else { high })
+            // Beside an outline t rises steeply up to the tangent, which lies between a hit and a miss.
+            if let (Some(hit), Some(miss)) = (farthest, miss)
+                && let Some(t) = tangent(own, hit, miss)
+            {
+                (low, high) = (low.min(t), high.max(t));
+            }
+            within(low, high)
         })
     }
 
@@ -140,4 +151,17 @@ impl<'a> Asked<'a> {
         let mut questions = self.rounds(length, size).flatten();
         questions.any(|q| !tracer.blocked(q.origin, q.direction, length * (1.0 - ku)))
     }
+}
+
+/// The distance of the last hit on the way from a ray that hits to one that misses, in halves.
+fn tangent(own: impl Fn([DVec3; 2]) -> Option<f64>, mut hit: [DVec3; 2], mut miss: [DVec3; 2]) -> Option<f64> {
+    let mut last = None;
+    for _ in 0..50 {
+        let middle = [0.5 * (hit[0] + miss[0]), (hit[1] + miss[1]).normalize()];
+        match own(middle) {
+            Some(t) => (last, hit) = (Some(t), middle),
+            None => miss = middle,
+        }
+    }
+    last
 }

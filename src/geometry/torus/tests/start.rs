@@ -37,7 +37,8 @@ fn a_ray_that_leaves_slightly_inward_finds_the_far_side() {
     }
 }
 
-/// What is clear of the start is never lost, and nothing is found where there is no surface.
+/// What is clear of the start is never lost, and nothing is found where there is no surface. Two thirds and more are judged:
+/// of the others the chord at the start is found.
 #[test]
 fn grazing_starts_lose_no_root() {
     let mut rng = Rng(11);
@@ -65,8 +66,7 @@ fn grazing_starts_lose_no_root() {
             hits += usize::from(t.is_some());
             assert!(is_right(&case, (origin, direction), t), "{:?} {origin} {direction} {slope}: {t:?}", case.it);
         }
-        println!("{kappa}: {hits} hits, {near} next to the start");
-        assert!(hits > if kappa > 0.1 { 150 } else { 5 } && near < 500, "{kappa}: {hits}, {near}");
+        assert!(hits > if kappa > 0.1 { 150 } else { 5 } && near < 1500 / 3, "{kappa}: {hits}, {near}");
     }
 }
 
